@@ -1,9 +1,7 @@
 #include "rayspace/format/object_file.hpp"
 
-#include "rayspace/codec/stream/coded_chunks.hpp"
-#include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/format/chunk_table.hpp"
-#include "rayspace/format/container_layout.hpp"
+#include "rayspace/format/object_reader.hpp"
 
 #include <algorithm>
 
@@ -13,205 +11,18 @@ using namespace object_chunks;
 
 namespace {
 
-// Reads one object; shares state between the steps.
-class ObjectReader {
+class ContainerChunks final : public ChunkSource {
 public:
-    ObjectReader(const ContainerReader& container, const ReadObjectOptions& options)
-        : container_(container), options_(options) {}
-
-    Result<RaySpaceObject> read() {
-        for (const ReadStage stage : {ReadStage::geometry, ReadStage::maps, ReadStage::images}) {
-            RS_TRY(read_stage(stage));
-            if (stage != ReadStage::geometry) continue;
-            RS_TRY(check_geometry());
-        }
-        RS_TRY(validate_object(partial_.object, container_.where()));
-        if (partial_.coded && options_.decode) codec::decode_images(partial_.object);
-        return std::move(partial_.object);
+    explicit ContainerChunks(const ContainerReader& container) : container_(container) {}
+    [[nodiscard]] const std::string& where() const override { return container_.where(); }
+    [[nodiscard]] std::span<const ChunkEntry> table() const override { return container_.table(); }
+    [[nodiscard]] const ChunkEntry* find(ChunkName name, std::uint32_t index) const override {
+        return container_.find(name, index);
     }
-
-    // Measures without reading large chunks. The memory of small ones is bounded by their size; the worst case is the
-    // parsed text of a rig.
-    Result<ReadMemory> measure() {
-        constexpr std::uint64_t kParsedOverText = 24;
-        constexpr std::uint64_t kSmallThings_bytes = 1U << 20;
-        RS_TRY(read_stage(ReadStage::geometry));
-        RS_TRY(check_geometry());
-        std::uint64_t kept = kSmallThings_bytes + memory_of_geometry();
-        std::uint64_t kept_by_maps = 0;
-        std::uint64_t largest_passing = 0;
-        std::uint64_t largest_chunk = 0;
-        for (const ChunkEntry& entry : container_.table()) {
-            largest_chunk = std::max(largest_chunk, entry.size_bytes);
-            if (partial_.coded && entry.name == kImage) kept += entry.size_bytes;
-            const ChunkKind* const kind = find_chunk_kind(entry.name);
-            if (kind == nullptr || kind->memory == nullptr) continue;
-            RS_ASSIGN_OR_RETURN(const auto payload, read_payload(entry));
-            const Result<ChunkMemory> takes = kind->memory(payload, partial_, entry.index);
-            if (!takes) return in_chunk({entry.name, entry.index}, takes.error());
-            kept_by_maps += takes->kept_bytes;
-            largest_passing = std::max(largest_passing, takes->temporary_bytes);
-        }
-        const std::uint64_t passing =
-            largest_chunk + largest_passing + kParsedOverText * partial_.object.rig_json.size();
-        const std::uint64_t images = wanted_images();
-        const std::uint64_t passing_planes = partial_.coded && options_.decode ? images * coded_planes_bytes() : 0;
-        ReadMemory memory;
-        memory.most_bytes = static_cast<std::int64_t>(kept + needed_bytes_ + kept_by_maps + passing);
-        memory.object_bytes = static_cast<std::int64_t>(kept + needed_bytes_ + kept_by_maps - passing_planes);
-        memory.width = partial_.object.width;
-        memory.height = partial_.object.height;
-        memory.images = static_cast<std::int64_t>(images);
-        return memory;
-    }
+    Result<std::vector<std::byte>> read(const ChunkEntry& entry) override { return container_.read(entry); }
 
 private:
-    [[nodiscard]] std::uint64_t memory_of_geometry() const {
-        std::uint64_t bytes = static_cast<std::uint64_t>(object_memory_bytes(partial_.object));
-        for (const Ring& ring : partial_.object.rings)
-            bytes += sizeof(NormalLine) * ring.views.size() * static_cast<std::uint64_t>(ring.planes);
-        return bytes;
-    }
-
-    [[nodiscard]] Error in_chunk(ChunkKey key, const Error& error) const {
-        return Error{container_.where() + ": chunk " + to_string(key.name) + " " + std::to_string(key.index) + ": " +
-                     error.message};
-    }
-
-    Result<std::vector<std::byte>> read_payload(const ChunkEntry& entry) const {
-        if (entry.size_bytes > options_.memory_cap_bytes) return too_large(entry.size_bytes);
-        return container_.read(entry);
-    }
-
-    // The memory stated by a chunk is checked against the limit before it is allocated, since a few bytes may state a
-    // lot.
-    Status read_chunk(const ChunkKind& kind, std::uint32_t index) {
-        const ChunkEntry* const entry = container_.find(kind.name, index);
-        if (entry == nullptr) {
-            if (kind.is_present != nullptr) return {};
-            return Error{container_.where() + ": has no chunk " + to_string(kind.name) + " " + std::to_string(index)};
-        }
-        RS_ASSIGN_OR_RETURN(const auto payload, read_payload(*entry));
-        if (kind.memory != nullptr) {
-            const Result<ChunkMemory> takes = kind.memory(payload, partial_, index);
-            if (!takes) return in_chunk({kind.name, index}, takes.error());
-            needed_bytes_ += takes->kept_bytes;
-            const std::uint64_t most_bytes = needed_bytes_ + takes->temporary_bytes;
-            if (most_bytes > options_.memory_cap_bytes) return too_large(most_bytes);
-        }
-        const Status parsed = kind.parse(payload, partial_, index);
-        return parsed ? Status{} : in_chunk({kind.name, index}, parsed.error());
-    }
-
-    Status read_stage(ReadStage stage) {
-        if (stage == ReadStage::images) return read_images();
-        for (const ChunkScope each : {ChunkScope::object, ChunkScope::ring}) {
-            for (std::uint32_t index = 0; index < max_chunk_count(each, partial_.object); ++index) {
-                RS_TRY(read_each(each, stage, index));
-            }
-        }
-        return {};
-    }
-
-    Status read_images() {
-        for (const Ring& ring : partial_.object.rings) {
-            for (std::size_t n = 0; n < ring.views.size(); ++n) {
-                if (!is_wanted(ring, n)) continue;
-                if (Status status = read_each(ChunkScope::view, ReadStage::images, ring.views[n]); !status)
-                    return status;
-                if (!partial_.coded) continue;
-                needed_bytes_ += partial_.coded->images[ring.views[n]].bytes.size();
-                if (needed_bytes_ > options_.memory_cap_bytes) return too_large(needed_bytes_);
-            }
-        }
-        return {};
-    }
-
-    Status read_each(ChunkScope each, ReadStage stage, std::uint32_t index) {
-        for (const ChunkKind& kind : chunk_table()) {
-            if (kind.each != each || kind.stage != stage) continue;
-            RS_TRY(read_chunk(kind, index));
-        }
-        return {};
-    }
-
-    Status check_geometry() {
-        RS_TRY(check_chunks());
-        return check_memory();
-    }
-
-    // Checks that the file contains the chunks of this object in the format's order, and otherwise only chunks that may
-    // be skipped.
-    Status check_chunks() const {
-        const std::vector<ChunkKey> expected = chunk_order(
-            partial_.object,
-            [&](const ChunkKind& kind, std::uint32_t index) { return container_.find(kind.name, index) != nullptr; });
-        const auto named = [](ChunkKey key) { return to_string(key.name) + " " + std::to_string(key.index); };
-        std::size_t next = 0;
-        for (const ChunkEntry& entry : container_.table()) {
-            const ChunkKey key{entry.name, entry.index};
-            const bool may_be_skipped =
-                entry.name[0] >= 'a' && entry.name[0] <= 'z' && find_chunk_kind(key.name) == nullptr;
-            if (next < expected.size() && key == expected[next]) {
-                ++next;
-            } else if (!may_be_skipped) {
-                return Error{
-                    container_.where() + ": chunk " + named(key) + " is unknown or out of place" +
-                    (next < expected.size() ? ", where chunk " + named(expected[next]) + " should stand" : "") +
-                    "; update these tools if the file is newer than they are"};
-            }
-        }
-        if (next == expected.size()) return {};
-        return Error{container_.where() + ": has no chunk " + named(expected[next]) + " in its place"};
-    }
-
-    // Checks the memory of maps and images, except memory stated by their own chunks.
-    Status check_memory() {
-        // No product reaches 2^64, since every factor is limited by conventions.hpp.
-        for (const Ring& ring : partial_.object.rings) {
-            needed_bytes_ += sizeof(std::uint16_t) * static_cast<std::uint64_t>(ring.planes) *
-                             static_cast<std::uint64_t>(ring.x_cells) * static_cast<std::uint64_t>(ring.u_cells);
-        }
-        needed_bytes_ += wanted_images() * image_bytes();
-        return needed_bytes_ <= options_.memory_cap_bytes ? Status{} : Status{too_large(needed_bytes_)};
-    }
-
-    [[nodiscard]] std::uint64_t wanted_images() const {
-        std::uint64_t images = 0;
-        for (const Ring& ring : partial_.object.rings) {
-            for (std::size_t n = 0; n < ring.views.size(); ++n) images += is_wanted(ring, n) ? 1 : 0;
-        }
-        return images;
-    }
-
-    [[nodiscard]] bool is_wanted(const Ring& ring, std::size_t n) const {
-        return level_of(partial_.object, ring, n) <= options_.max_level;
-    }
-
-    // Memory of one image: coded ones are decoded at full size, from planes that are slightly larger.
-    [[nodiscard]] std::uint64_t image_bytes() const {
-        if (!partial_.coded) return raw_image_bytes(partial_.object.width, partial_.object.height);
-        return codec::tile_table_bytes(*partial_.coded) + (options_.decode ? 2 * coded_planes_bytes() : 0);
-    }
-
-    [[nodiscard]] std::uint64_t coded_planes_bytes() const {
-        constexpr std::uint64_t kCodedPlanes = 4;
-        return kCodedPlanes * static_cast<std::uint64_t>(partial_.coded->coded_width()) *
-               static_cast<std::uint64_t>(partial_.coded->coded_height());
-    }
-
-    [[nodiscard]] Error too_large(std::uint64_t needed_bytes) const {
-        const auto mebibytes = [](std::uint64_t bytes) {
-            return std::to_string((bytes + (1U << 20) - 1) >> 20) + " MiB";
-        };
-        return Error{container_.where() + ": needs " + mebibytes(needed_bytes) + " of memory, more than the " +
-                     mebibytes(options_.memory_cap_bytes) + " allowed; encode it with fewer or smaller images"};
-    }
-
     const ContainerReader& container_;
-    const ReadObjectOptions& options_;
-    PartialObject partial_;
-    std::uint64_t needed_bytes_ = 0;  // counted against memory_cap_bytes
 };
 
 }  // namespace
@@ -236,7 +47,8 @@ Status write_object(const std::filesystem::path& path, const RaySpaceObject& obj
 }
 
 Result<RaySpaceObject> read_object(const ContainerReader& container, const ReadObjectOptions& options) {
-    return ObjectReader(container, options).read();
+    ContainerChunks chunks(container);
+    return ObjectReader(chunks, options).read();
 }
 
 Result<RaySpaceObject> read_object(const std::filesystem::path& path, const ReadObjectOptions& options) {
@@ -245,7 +57,8 @@ Result<RaySpaceObject> read_object(const std::filesystem::path& path, const Read
 }
 
 Result<ReadMemory> estimate_read_memory(const ContainerReader& container, const ReadObjectOptions& options) {
-    return ObjectReader(container, options).measure();
+    ContainerChunks chunks(container);
+    return ObjectReader(chunks, options).measure();
 }
 
 std::vector<ChunkSummary> summarise_chunks(const ContainerReader& container) {

@@ -1,9 +1,12 @@
 #include "engine/core/definition/reconstruct.hpp"
 #include "rayspace/format/chunk_table.hpp"
 #include "rayspace/format/object_file.hpp"
+#include "rayspace/format/object_stream.hpp"
 #include "rayspace/geometry/ray_space.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
 #include "tests/fuzz/entries.hpp"
+
+#include <algorithm>
 
 namespace rs::fuzz {
 namespace {
@@ -38,6 +41,27 @@ void check_rendering(const RaySpaceObject& object) {
     }
 }
 
+// A file that arrives in pieces gives the object of the whole file, or an error as that does.
+void check_streaming(const std::vector<std::byte>& file, const ReadObjectOptions& options) {
+    ReadObjectOptions coded = options;
+    coded.decode = false;
+    const auto container = ContainerReader::over(file, "input");
+    const auto whole = read_object(*container, coded);
+    constexpr std::size_t kPieces[] = {7, 64, 1000};
+    for (const std::size_t piece : kPieces) {
+        ObjectStream stream("input", file.size(), options);
+        bool accepted = true;
+        for (std::size_t at = 0; at < file.size() && accepted; at += piece) {
+            accepted = stream.add(at, std::span(file).subspan(at, std::min(piece, file.size() - at))).ok();
+        }
+        accepted = accepted && stream.finish(file.size()).ok();
+        RS_CHECK(accepted == whole.ok());
+        if (!accepted) continue;
+        RS_CHECK(stream.object().views == whole->views && stream.object().rings == whole->rings);
+        RS_CHECK(stream.object().images == whole->images);
+    }
+}
+
 }  // namespace
 
 int fuzz_object(const std::uint8_t* data, std::size_t size) {
@@ -51,6 +75,7 @@ int fuzz_object(const std::uint8_t* data, std::size_t size) {
     if (!whole) RS_CHECK(whole.error().message.find('\n') == std::string::npos);
     if (whole) check_rewriting(*whole);
     if (whole) check_rendering(*whole);
+    check_streaming(container_of(chunks), options);
     options.max_level = 0;
     const auto coarse = read_object(*container, options);
     RS_CHECK(!whole || coarse.ok());

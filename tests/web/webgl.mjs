@@ -180,30 +180,6 @@ const tests = {
     assert.deepEqual(drawn, ["webgl", ...round, ...round]);
   },
 
-  async photosAreUploadedAgainWhenTheyChange() {
-    const page = await open();
-    const drawn = await page.evaluate(async () => {
-      const element = await showAtRest({ renderer: "webgl" });
-      const { viewRenderer } = element;
-      const view = { azimuth: 0.5, elevation: 0, distance: element.getCameraOrbit().radius };
-      const drawn = [await draw(viewRenderer, 160, 120, view)];
-      pixels(viewRenderer);
-      const expected = pixels(viewRenderer);
-      const isSame = () => pixels(viewRenderer).every((value, i) => value === expected[i]);
-      const { object } = viewRenderer;
-      const photos = [...object.uploaded];
-      const { width, height } = object.size;
-      const empty = { colours: new Uint8Array(4 * width * height), details: new Int8Array(width * height) };
-      for (const photo of photos) object.upload(photo, empty);
-      drawn.push(await draw(viewRenderer, 160, 120, view), isSame());
-      await viewRenderer.photosChanged(photos);
-      await viewRenderer.render(160, 120, view);
-      drawn.push(viewRenderer.drawnBy, await draw(viewRenderer, 160, 120, view), isSame());
-      return drawn;
-    });
-    assert.deepEqual(drawn, ["webgl", "webgl", false, "core", "webgl", true]);
-  },
-
   async photosBesideAViewAreUploadedAtRest() {
     const page = await open();
     const drawn = await page.evaluate(async () => {

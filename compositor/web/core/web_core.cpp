@@ -2,13 +2,13 @@
 // web_error() then gives the message. Memory for inputs is allocated by web_allocate() and passed on to the function
 // that takes it.
 
+#include "compositor/web/core/web_core.hpp"
+
 #include "compositor/gpu/shader/object_textures.hpp"
 #include "compositor/gpu/shader/reconstruction_shader.hpp"
 #include "compositor/gpu/shader/view_uniforms.hpp"
-#include "compositor/web/view/object_view.hpp"
 #include "compositor/web/view/shader_inputs.hpp"
 
-#include <emscripten/emscripten.h>
 #include <xxhash.h>
 
 #include <cstdlib>
@@ -18,8 +18,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#define WEB_EXPORT extern "C" EMSCRIPTEN_KEEPALIVE
 
 namespace rs::web {
 namespace {
@@ -36,11 +34,6 @@ std::vector<std::int32_t> shader_view_places;
 std::vector<compositor::CellPair> cells;
 PhotoTexels photo;
 std::string shader_text;
-
-bool succeeded(const Status& status) {
-    if (!status) last_error = status.error().message;
-    return status.ok();
-}
 
 engine::LinearForm next_form(std::span<const double>& values) {
     const auto take = [&](std::size_t i) { return static_cast<std::int64_t>(values[i]); };
@@ -105,6 +98,21 @@ const std::int32_t* places_of_prepared() {
 }
 
 }  // namespace
+
+std::optional<ObjectView>& opened_view() {
+    return opened;
+}
+
+void close_object() {
+    opened.reset();
+    shader_inputs = {};
+}
+
+bool succeeded(const Status& status) {
+    if (!status) last_error = status.error().message;
+    return status.ok();
+}
+
 }  // namespace rs::web
 
 using namespace rs::web;
@@ -124,8 +132,7 @@ WEB_EXPORT void web_free(void* memory) {
 
 /// Opens the .rso file `bytes`, and closes the one opened before. \return 1 on success
 WEB_EXPORT int web_open(const std::byte* bytes, std::size_t size_bytes, const char* name, int max_level) {
-    opened.reset();
-    shader_inputs = {};
+    close_object();
     rs::Result<ObjectView> made = ObjectView::open({bytes, bytes + size_bytes}, name, max_level);
     if (!made) {
         last_error = made.error().message;

@@ -23,6 +23,13 @@ interface Exports {
   web_photo_details(): number;
   web_prepare(width: number, height: number, azimuth: number, elevation: number, distance: number): number;
   web_prepare_registers(values: number, count: number): number;
+  web_stream_begin(name: number, size: number): void;
+  web_stream_add(bytes: number, size: number, offset: number): number;
+  web_stream_finish(size: number): number;
+  web_stream_state(): number;
+  web_stream_next(
+    width: number, height: number, azimuth: number, elevation: number, distance: number, requested: number, count: number,
+  ): number;
 }
 
 /** A ring of photos. Angles in radians, lengths in object radii. */
@@ -90,6 +97,29 @@ export interface ViewInputs {
   rows: Int32Array<ArrayBuffer>;
 }
 
+/** Bytes [begin, end) of a file. */
+export interface ByteRange {
+  begin: number;
+  end: number;
+}
+
+/** An object while it arrives. */
+export interface StreamState {
+  /** As soon as its geometry is there. */
+  object?: ObjectDescription;
+  complete: boolean;
+  /** Views whose photos arrived since the last state. */
+  photos: number[];
+}
+
+/** The next range that a view needs. */
+export interface NextRange {
+  /** True if the view can be rendered. */
+  ready: boolean;
+  /** Missing if there is nothing to request at present. */
+  range?: ByteRange;
+}
+
 /** Failure that a visitor may read: one sentence. */
 export class CoreError extends Error {}
 
@@ -137,14 +167,7 @@ export class Core {
     this.wasm.web_free(bytes);
     this.wasm.web_free(title);
     if (!opened) throw this.lastError();
-    const at = this.wasm.web_describe();
-    const [width, height, photos, rings] = this.doubles(at, 4);
-    const description: ObjectDescription = { name: this.text(this.wasm.web_name()), width, height, photos, rings: [] };
-    for (let ring = 0; ring < rings; ++ring) {
-      const [distance, targetHeight, elevation, azimuth] = this.doubles(at + 32 * (ring + 1), 4);
-      description.rings.push({ distance, targetHeight, elevation, azimuth });
-    }
-    return description;
+    return this.describe();
   }
 
   /** Renders a view: straight RGBA. The array is valid until the next call. */
@@ -226,7 +249,7 @@ export class Core {
   }
 
   private copied(bytes: Uint8Array): number {
-    const at = this.wasm.web_allocate(bytes.length);
+    const at = this.wasm.web_allocate(Math.max(bytes.length, 1));
     if (!at) throw new CoreError("not enough memory for the object; close other pages");
     new Uint8Array(this.wasm.memory.buffer, at, bytes.length).set(bytes);
     return at;
@@ -255,5 +278,52 @@ export class Core {
       }
       throw error;
     }
+  }
+
+  private describe(): ObjectDescription {
+    const at = this.wasm.web_describe();
+    const [width, height, photos, rings] = this.doubles(at, 4);
+    const description: ObjectDescription = { name: this.text(this.wasm.web_name()), width, height, photos, rings: [] };
+    for (let ring = 0; ring < rings; ++ring) {
+      const [distance, targetHeight, elevation, azimuth] = this.doubles(at + 32 * (ring + 1), 4);
+      description.rings.push({ distance, targetHeight, elevation, azimuth });
+    }
+    return description;
+  }
+
+  /**
+   * Begins an object that arrives in parts, in place of the one opened before.
+   * @param size of the file in bytes; negative if it is unknown
+   */
+  beginStream(name: string, size: number): void {
+    const title = this.copied(new TextEncoder().encode(`${name}\0`));
+    this.wasm.web_stream_begin(title, size);
+    this.wasm.web_free(title);
+  }
+
+  /** Takes bytes of the file. Those of one chunk must arrive in order. */
+  addBytes(offset: number, bytes: Uint8Array): StreamState {
+    const at = this.copied(bytes);
+    const added = this.guarded(() => this.wasm.web_stream_add(at, bytes.length, offset));
+    this.wasm.web_free(at);
+    if (!added) throw this.lastError();
+    const state = this.wasm.web_stream_state();
+    const [described, complete, photos] = this.doubles(state, 3);
+    return { object: described ? this.describe() : undefined, complete: complete !== 0, photos: this.doubles(state + 24, photos) };
+  }
+
+  /** Fails if parts are missing in a file that ended after `size` bytes. */
+  finishStream(size: number): void {
+    if (!this.wasm.web_stream_finish(size)) throw this.lastError();
+  }
+
+  /** @param requested ranges that are being loaded */
+  nextRange(width: number, height: number, view: Orbit, requested: ByteRange[]): NextRange {
+    const values = this.copied(new Uint8Array(Float64Array.from(requested.flatMap(({ begin, end }) => [begin, end])).buffer));
+    const { azimuth, elevation, distance } = view;
+    const next = this.wasm.web_stream_next(width, height, azimuth, elevation, distance, values, requested.length);
+    this.wasm.web_free(values);
+    const [ready, begin, end] = this.doubles(next, 3);
+    return { ready: ready !== 0, range: begin < end ? { begin, end } : undefined };
   }
 }

@@ -1,22 +1,35 @@
 // Requests to the core as messages, so that it can run in a worker.
 
-import { Core, type ObjectDescription, type ObjectTextures, type Orbit, type PhotoTexels, type ViewInputs } from "./core.js";
+import {
+  type ByteRange,
+  Core,
+  type NextRange,
+  type ObjectTextures,
+  type Orbit,
+  type PhotoTexels,
+  type StreamState,
+  type ViewInputs,
+} from "./core.js";
 
 /** Requests to the worker, in the order of their answers. */
 export type Request =
   | { kind: "create"; module: ArrayBuffer }
-  | { kind: "open"; file: ArrayBuffer; name: string }
   | { kind: "render"; width: number; height: number; view: Orbit }
   | { kind: "textures"; maxSide: number; maxLayers: number }
   | { kind: "photo"; photo: number }
-  | { kind: "prepare"; width: number; height: number; view: Orbit };
+  | { kind: "prepare"; width: number; height: number; view: Orbit }
+  | { kind: "begin"; name: string; size: number }
+  | { kind: "add"; offset: number; bytes: Uint8Array }
+  | { kind: "finish"; size: number }
+  | { kind: "next"; width: number; height: number; view: Orbit; requested: ByteRange[] };
 
 export interface Result {
-  description?: ObjectDescription;
   pixels?: Uint8ClampedArray<ArrayBuffer>;
   textures?: ObjectTextures;
   photo?: PhotoTexels;
   inputs?: ViewInputs;
+  state?: StreamState;
+  next?: NextRange;
 }
 export type Answer = { error: string } | Result;
 
@@ -47,8 +60,6 @@ export class CoreServer {
 
   private answerOf(core: Core, request: Exclude<Request, { kind: "create" }>): Result {
     switch (request.kind) {
-      case "open":
-        return { description: core.open(new Uint8Array(request.file), request.name) };
       case "render":
         return { pixels: core.render(request.width, request.height, request.view).slice() };
       case "textures":
@@ -57,6 +68,16 @@ export class CoreServer {
         return { photo: core.photo(request.photo) };
       case "prepare":
         return { inputs: core.prepare(request.width, request.height, request.view) };
+      case "begin":
+        core.beginStream(request.name, request.size);
+        return {};
+      case "add":
+        return { state: core.addBytes(request.offset, request.bytes) };
+      case "finish":
+        core.finishStream(request.size);
+        return {};
+      case "next":
+        return { next: core.nextRange(request.width, request.height, request.view, request.requested) };
     }
   }
 }

@@ -327,7 +327,12 @@ export class GlObject {
     gl.texStorage3D(gl.TEXTURE_2D_ARRAY, 1, gl.RGBA8UI, width, height, photos);
     object.details = device.texture(gl.TEXTURE_2D_ARRAY, 3);
     gl.texStorage3D(gl.TEXTURE_2D_ARRAY, 1, gl.R8I, width, height, photos);
-    object.setCells(textures);
+    object.cells = cells.map(({ rows, texels }) => {
+      const texture = device.texture(gl.TEXTURE_2D, 1);
+      gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA8UI, kCellTextureWidth, rows);
+      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, kCellTextureWidth, rows, gl.RGBA_INTEGER, gl.UNSIGNED_BYTE, texels);
+      return texture;
+    });
     if (!device.isLost && gl.getError() !== gl.NO_ERROR) {
       object.delete();
       throw new GlError("the graphics processor has no memory for the object");
@@ -343,22 +348,6 @@ export class GlObject {
   /** Photos of a list that are not uploaded. */
   missing(photos: Iterable<number>): number[] {
     return [...photos].filter((photo) => !this.uploaded.has(photo));
-  }
-
-  /** Photos that must be uploaded again. */
-  forget(photos: Iterable<number>): void {
-    for (const photo of photos) this.uploaded.delete(photo);
-  }
-
-  setCells({ cells }: ObjectTextures): void {
-    const { gl } = this.device;
-    for (const texture of this.cells) gl.deleteTexture(texture);
-    this.cells = cells.map(({ rows, texels }) => {
-      const texture = this.device.texture(gl.TEXTURE_2D, 1);
-      gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA8UI, kCellTextureWidth, rows);
-      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, kCellTextureWidth, rows, gl.RGBA_INTEGER, gl.UNSIGNED_BYTE, texels);
-      return texture;
-    });
   }
 
   upload(photo: number, { colours, details }: PhotoTexels): void {

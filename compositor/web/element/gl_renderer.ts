@@ -2,7 +2,7 @@
 // whose photos are not uploaded yet, and all views while the context is lost, are rendered by the core: both give the
 // same pixels, so that a change is not visible.
 
-import type { ObjectDescription, ObjectTextures, Orbit, ViewInputs } from "./core.js";
+import type { ByteRange, NextRange, ObjectTextures, Orbit, StreamState, ViewInputs } from "./core.js";
 import { GlDevice, GlObject } from "./gl_device.js";
 import { CoreRenderer, type ViewRenderer } from "./view_renderer.js";
 
@@ -16,8 +16,7 @@ export class GlRenderer implements ViewRenderer {
   drawnBy: "core" | "webgl" = "core";
   private object?: GlObject;
   private uploading?: Promise<void>;
-  private changes = 0; // of the object's photos
-  private hasOldCells = false; // shape maps are used only while all photos of their ring are present
+  private arriving = false; // the object has parts that are missing, for which the core finds substitutes
   private refused_ms = Number.NEGATIVE_INFINITY; // when there was no memory for the textures
   private device?: GlDevice;
   private rest?: ReturnType<typeof setTimeout>;
@@ -32,29 +31,37 @@ export class GlRenderer implements ViewRenderer {
     this.device = device;
   }
 
-  async open(file: ArrayBuffer, name: string): Promise<ObjectDescription> {
-    const description = await this.core.open(file, name);
+  async beginStream(name: string, size: number): Promise<void> {
+    this.arriving = true;
     this.object?.delete();
     this.object = undefined;
-    return description;
+    await this.core.beginStream(name, size);
+  }
+
+  async addBytes(offset: number, bytes: Uint8Array<ArrayBuffer>): Promise<StreamState> {
+    const state = await this.core.addBytes(offset, bytes);
+    this.arriving = !state.complete;
+    return state;
+  }
+
+  finishStream(size: number): Promise<void> {
+    return this.core.finishStream(size);
+  }
+
+  nextRange(width: number, height: number, view: Orbit, requested: ByteRange[]): Promise<NextRange> {
+    return this.core.nextRange(width, height, view, requested);
   }
 
   async render(width: number, height: number, view: Orbit): Promise<void> {
     clearTimeout(this.rest);
     this.drawnBy = (await this.drawByGl(width, height, view)) ? "webgl" : "core";
     if (this.drawnBy === "core") await this.core.render(width, height, view);
-    if (this.device) this.rest = setTimeout(() => this.startUpload(() => this.uploadBeside(view)), kRest_ms);
+    if (this.device && !this.arriving) this.rest = setTimeout(() => this.startUpload(() => this.uploadBeside(view)), kRest_ms);
   }
 
   /** Resolves when no photo is being uploaded. */
   async settled(): Promise<void> {
     await this.uploading;
-  }
-
-  async photosChanged(photos: readonly number[]): Promise<void> {
-    ++this.changes;
-    this.hasOldCells = true;
-    this.object?.forget(photos);
   }
 
   close(): void {
@@ -68,11 +75,11 @@ export class GlRenderer implements ViewRenderer {
 
   // Returns false if the core has to render the view.
   private async drawByGl(width: number, height: number, view: Orbit): Promise<boolean> {
-    if (!this.device || this.device.isLost) return false;
+    if (!this.device || this.device.isLost || this.arriving) return false;
     const inputs = await this.prepare(width, height, view);
     const { device, object } = this;
     if (!device || inputs.setups.length === 0) return false;
-    if (!object?.isValid || this.hasOldCells || object.missing(inputs.photos).length > 0) {
+    if (!object?.isValid || object.missing(inputs.photos).length > 0) {
       this.startUpload(() => this.upload(inputs.photos));
       return false;
     }
@@ -104,17 +111,17 @@ export class GlRenderer implements ViewRenderer {
 
   // Uploads photos one at a time, so that views are rendered in between.
   private async upload(photos: Iterable<number>): Promise<void> {
-    const { device, changes } = this;
+    const { device } = this;
     if (!device || device.isLost) return;
-    if (!this.object?.isValid || this.hasOldCells) {
+    if (!this.object?.isValid) {
       const { textures } = await this.core.send({ kind: "textures", maxSide: device.maxSide, maxLayers: device.maxLayers });
-      if (!this.isCurrent(changes)) return;
+      if (!this.canUpload()) return;
       this.setTextures(device, textures!);
     }
     const { object } = this;
     for (const photo of object?.missing(photos) ?? []) {
       const answer = await this.core.send({ kind: "photo", photo });
-      if (!this.isCurrent(changes) || !object!.isValid) return;
+      if (!this.canUpload() || !object!.isValid) return;
       object!.upload(photo, answer.photo!);
     }
   }
@@ -130,15 +137,13 @@ export class GlRenderer implements ViewRenderer {
   }
 
   private setTextures(device: GlDevice, textures: ObjectTextures): void {
-    this.hasOldCells = false;
-    if (this.object?.isValid) return this.object.setCells(textures);
     this.object?.delete();
     this.object = GlObject.create(device, textures);
     if (!this.object) this.refused_ms = performance.now();
   }
 
-  private isCurrent(changes: number): boolean {
-    return this.device !== undefined && !this.device.isLost && this.changes === changes;
+  private canUpload(): boolean {
+    return this.device !== undefined && !this.device.isLost && !this.arriving;
   }
 
   private fail(error: unknown): void {

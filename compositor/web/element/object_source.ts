@@ -9,6 +9,18 @@ export function fileName(url: string): string {
   return decodeURIComponent(path.slice(path.lastIndexOf("/") + 1)) || url;
 }
 
+/** Error for a file that cannot be requested. */
+export function unreachable(name: string): CoreError {
+  const hint = location.protocol === "file:" ? "; a page opened from disk needs its object inside (rs-view page)" : "";
+  return new CoreError(`${name}: cannot be fetched${hint}`);
+}
+
+/** Error for an answer with another status than success. */
+export function refused(name: string, status: number): CoreError {
+  const reason = status === 404 ? "does not exist on the server" : "is not delivered by the server";
+  return new CoreError(`${name}: ${reason} (${status})`);
+}
+
 /**
  * Fetches a whole file.
  * @param onprogress called with the fraction that has arrived, where the server states the size
@@ -24,13 +36,9 @@ export async function fetchFile(
     response = await fetch(url, { signal });
   } catch (error) {
     if (signal.aborted) throw error;
-    const hint = location.protocol === "file:" ? "; a page opened from disk needs its object inside (rs-view page)" : "";
-    throw new CoreError(`${name}: cannot be fetched${hint}`);
+    throw unreachable(name);
   }
-  if (!response.ok) {
-    const reason = response.status === 404 ? "does not exist on the server" : "is not delivered by the server";
-    throw new CoreError(`${name}: ${reason} (${response.status})`);
-  }
+  if (!response.ok) throw refused(name, response.status);
   const expected = Number(response.headers.get("content-length"));
   const encoded = response.headers.get("content-encoding");
   if (!response.body || !expected || encoded) return response.arrayBuffer();

@@ -4,7 +4,8 @@
 import { describeView, formatOrbit, parseAngle, parseOrbit } from "./camera_orbit.js";
 import type { ObjectDescription, Orbit } from "./core.js";
 import { createRenderer, type RendererChoice } from "./gl_renderer.js";
-import { fetchFile, fetchModule, fileName } from "./object_source.js";
+import { fetchModule } from "./object_source.js";
+import { ObjectStream } from "./object_stream.js";
 import { OrbitControls } from "./orbit_controls.js";
 import { template } from "./template.js";
 import type { ViewRenderer } from "./view_renderer.js";
@@ -15,6 +16,7 @@ const kSteepest = (80 * Math.PI) / 180;
 const kFrame_ms = 40; // aim for views in motion, which are rendered smaller where needed
 const kSmallestScale = 0.3;
 const kRest_ms = 150; // pause after which a view is rendered at full size
+const kRefresh_ms = 250; // between views while photos arrive
 const kMaxPixelRatio = 2;
 const kMaxPixels = 2_500_000;
 const kDefaultTurn = Math.PI / 16; // radians per second
@@ -38,6 +40,9 @@ export class RaySpaceElement extends HTMLElement {
   private object?: ObjectDescription;
   private captured: Orbit = { azimuth: 0, elevation: 0, distance: 1 };
   private loading?: AbortController;
+  private shown = false; // a view is on screen
+  private complete = false;
+  private refresh = 0;
   private onScreen = false;
   private loop = 0;
   private lastFrame_ms = 0;
@@ -57,9 +62,9 @@ export class RaySpaceElement extends HTMLElement {
     this.stillMotion.addEventListener("change", () => this.configure());
   }
 
-  /** True after the `load` event. */
+  /** True after the `load` event: all photos are there. */
   get loaded(): boolean {
-    return this.object !== undefined;
+    return this.complete;
   }
 
   /** Renderer in use; undefined until the object is loaded. For tests. */
@@ -107,7 +112,7 @@ export class RaySpaceElement extends HTMLElement {
     this.resized.observe(this);
     document.addEventListener("visibilitychange", this.schedule);
     this.configure();
-    if (this.hasAttribute("src") && !this.object) void this.load();
+    if (this.hasAttribute("src") && !this.loading) void this.load();
   }
 
   disconnectedCallback(): void {
@@ -145,16 +150,21 @@ export class RaySpaceElement extends HTMLElement {
     const poster = this.part_("poster") as HTMLImageElement;
     const image = this.getAttribute("poster");
     if (image) poster.src = image;
-    poster.hidden = !image || this.object !== undefined;
+    poster.hidden = !image || this.shown;
     this.invalidate();
   }
 
   private unload(): void {
     this.loading?.abort();
+    this.loading = undefined;
     this.renderer?.close();
     this.renderer?.canvas.remove();
     this.renderer = undefined;
     this.object = undefined;
+    this.shown = false;
+    this.complete = false;
+    clearTimeout(this.refresh);
+    this.refresh = 0;
     cancelAnimationFrame(this.loop);
     this.loop = 0;
   }
@@ -168,27 +178,32 @@ export class RaySpaceElement extends HTMLElement {
     const { signal } = this.loading;
     this.configure();
     this.progress(0);
+    const stream = new ObjectStream(src, signal, {
+      view: () => ({ ...this.viewSize(1), orbit: { ...this.controls.view } }),
+      described: (object) => this.begin(object),
+      arrived: async (_, ready) => {
+        if (this.shown) this.refreshSoon();
+        else if (ready && !signal.aborted) await this.showFirst();
+      },
+      progress: (fraction) => this.progress(Math.min(fraction, 0.99)),
+    });
     try {
       const core = this.getAttribute("core") ?? new URL("ray-space.wasm", kScript ?? document.baseURI).href;
-      const [module, file] = await Promise.all([
-        fetchModule(core, signal),
-        fetchFile(src, signal, (fraction) => this.progress(0.9 * fraction)),
-      ]);
+      const [module] = await Promise.all([fetchModule(core, signal), stream.open()]);
       const renderer = await createRenderer(this.rendererChoice(), module);
       if (signal.aborted) return renderer.close();
       this.renderer = renderer;
-      const object = await renderer.open(file, fileName(src));
+      await stream.load(renderer);
       if (signal.aborted) return;
-      this.begin(object);
-      await this.draw(1);
+      if (this.shown) await this.draw(1);
+      else await this.showFirst();
       if (signal.aborted) return;
-      this.stage.prepend(renderer.canvas);
-      this.part_("poster").hidden = true;
+      this.complete = true;
       this.progress(1);
       this.dispatchEvent(new CustomEvent("load", { detail: { url: src } }));
       this.schedule();
     } catch (error) {
-      if (!signal.aborted) this.fail(error);
+      if (!signal.aborted) this.fail(error, this.shown);
     }
   }
 
@@ -199,10 +214,33 @@ export class RaySpaceElement extends HTMLElement {
     return "auto";
   }
 
-  private fail(error: unknown): void {
-    this.unload();
+  // Replaces the poster by the first view, perhaps of few photos.
+  private async showFirst(): Promise<void> {
+    const { renderer } = this;
+    await this.draw(1);
+    if (!renderer || this.renderer !== renderer) return;
+    this.shown = true;
+    this.stage.prepend(renderer.canvas);
+    this.part_("poster").hidden = true;
+    this.dispatchEvent(new CustomEvent("poster-dismissed"));
+    this.schedule();
+  }
+
+  private refreshSoon(): void {
+    if (this.refresh) return;
+    this.refresh = window.setTimeout(() => {
+      this.refresh = 0;
+      this.invalidate();
+    }, kRefresh_ms);
+  }
+
+  /** @param keep what is shown stays, with the message below it */
+  private fail(error: unknown, keep = false): void {
+    if (keep) this.loading?.abort();
+    else this.unload();
     const message = error instanceof Error ? error.message : String(error);
     this.progress(1);
+    this.part_("message").toggleAttribute("data-below", keep);
     this.part_("message").textContent = message;
     this.dispatchEvent(new CustomEvent("error", { detail: { type: "loadfailure", sourceError: error, message } }));
   }
@@ -289,7 +327,7 @@ export class RaySpaceElement extends HTMLElement {
 
   // Frames are requested only while the element is visible and something changes.
   private readonly schedule = (): void => {
-    if (this.loop || !this.object || !this.onScreen || document.hidden) return;
+    if (this.loop || !this.shown || !this.onScreen || document.hidden) return;
     this.loop = requestAnimationFrame((now) => {
       this.loop = 0;
       void this.frame(now);
@@ -330,17 +368,23 @@ export class RaySpaceElement extends HTMLElement {
   }
 
   private async draw(scale: number): Promise<void> {
-    const box = this.stage.getBoundingClientRect();
-    const ratio = Math.min(devicePixelRatio, kMaxPixelRatio);
-    const fit = Math.min(1, Math.sqrt(kMaxPixels / Math.max(1, box.width * box.height * ratio * ratio)));
-    const side = (length: number) => Math.max(1, Math.round(length * ratio * fit * scale));
+    const { width, height } = this.viewSize(scale);
     this.drawnScale = scale;
     const begun = performance.now();
-    await this.renderer?.render(side(box.width), side(box.height), { ...this.controls.view });
+    await this.renderer?.render(width, height, { ...this.controls.view });
     const took_ms = performance.now() - begun;
     // Time is proportional to the pixels; half a step at a time, since other work disturbs the measurement.
     const wanted = scale * Math.sqrt(kFrame_ms / Math.max(took_ms, 1));
     this.scale = Math.min(1, Math.max(kSmallestScale, (this.scale + wanted) / 2));
+  }
+
+  // Size of a view in pixels.
+  private viewSize(scale: number): { width: number; height: number } {
+    const box = this.stage.getBoundingClientRect();
+    const ratio = Math.min(devicePixelRatio, kMaxPixelRatio);
+    const fit = Math.min(1, Math.sqrt(kMaxPixels / Math.max(1, box.width * box.height * ratio * ratio)));
+    const side = (length: number) => Math.max(1, Math.round(length * ratio * fit * scale));
+    return { width: side(box.width), height: side(box.height) };
   }
 
   private toggleFullScreen(): void {

@@ -13,6 +13,7 @@ const kMarkup = `
   [part~="message"] { position: absolute; inset: 0; display: grid; place-items: center; margin: 0; padding: 1em; text-align: center;
     pointer-events: none; font: 1rem/1.4 system-ui, sans-serif; color: CanvasText; overflow-wrap: anywhere; }
   [part~="message"]:not(:empty) { background: Canvas; border: 1px solid GrayText; }
+  [part~="message"][data-below] { inset: auto 0 0; padding: 0.4em 1em; }
   [part~="progress"] { position: absolute; left: 10%; bottom: 8%; width: 80%; height: 4px; }
   [part~="full-screen"] { position: absolute; right: 8px; bottom: 8px; width: 36px; height: 36px; padding: 8px; border: 0;
     border-radius: 6px; background: rgb(0 0 0 / 45%); color: #fff; cursor: pointer; }

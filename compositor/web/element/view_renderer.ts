@@ -1,7 +1,7 @@
 // Renderers of views into a canvas. The element knows them by this interface only.
 
 import workerSource from "worker-source";
-import { CoreError, type ObjectDescription, type Orbit } from "./core.js";
+import { type ByteRange, CoreError, type NextRange, type Orbit, type StreamState } from "./core.js";
 import { type Answer, CoreServer, type Request, type Result } from "./core_server.js";
 
 export interface ViewRenderer {
@@ -9,14 +9,19 @@ export interface ViewRenderer {
   readonly canvas: HTMLCanvasElement;
   /** Name of the renderer that has drawn the last view. */
   readonly drawnBy: "core" | "webgl";
-  /** Opens an .rso file, whose buffer it takes over. `name` begins the messages of errors. */
-  open(file: ArrayBuffer, name: string): Promise<ObjectDescription>;
   /** Renders a view of the given size in pixels into the canvas. One call at a time. */
   render(width: number, height: number, view: Orbit): Promise<void>;
-  /** Tells that photos of the object have been added or replaced. Renderers that keep copies load them again. */
-  photosChanged?(photos: readonly number[]): Promise<void>;
   /** Ends the renderer and frees its memory. */
   close(): void;
+
+  /** Begins an object that arrives in parts. `name` begins the messages of errors. @param size of the file; negative if unknown */
+  beginStream(name: string, size: number): Promise<void>;
+  /** Takes bytes of the file, whose buffer it takes over. Those of one chunk must arrive in order. */
+  addBytes(offset: number, bytes: Uint8Array<ArrayBuffer>): Promise<StreamState>;
+  /** Fails if parts are missing in a file that ended after `size` bytes. */
+  finishStream(size: number): Promise<void>;
+  /** Selects the next range that a view needs. @param requested ranges that are being loaded */
+  nextRange(width: number, height: number, view: Orbit, requested: ByteRange[]): Promise<NextRange>;
 }
 
 interface Channel {
@@ -74,10 +79,6 @@ export class CoreRenderer implements ViewRenderer {
     return renderer;
   }
 
-  async open(file: ArrayBuffer, name: string): Promise<ObjectDescription> {
-    return (await this.send({ kind: "open", file, name }, [file])).description!;
-  }
-
   async render(width: number, height: number, view: Orbit): Promise<void> {
     const { pixels } = await this.send({ kind: "render", width, height, view });
     this.sized(width, height).putImageData(new ImageData(pixels!, width, height), 0, 0);
@@ -92,6 +93,22 @@ export class CoreRenderer implements ViewRenderer {
 
   close(): void {
     this.channel.close();
+  }
+
+  async beginStream(name: string, size: number): Promise<void> {
+    await this.send({ kind: "begin", name, size });
+  }
+
+  async addBytes(offset: number, bytes: Uint8Array<ArrayBuffer>): Promise<StreamState> {
+    return (await this.send({ kind: "add", offset, bytes }, [bytes.buffer])).state!;
+  }
+
+  async finishStream(size: number): Promise<void> {
+    await this.send({ kind: "finish", size });
+  }
+
+  async nextRange(width: number, height: number, view: Orbit, requested: ByteRange[]): Promise<NextRange> {
+    return (await this.send({ kind: "next", width, height, view, requested })).next!;
   }
 
   /** Sends a request to the core. */

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t kMaxObject_bytes = std::uint64_t{256} << 20;  // browsers limit the length of an address
 constexpr int kPosterSide_px = 480;
+constexpr int kInlinePosterSide_px = 320;  // of a page whose object, which takes its place at once, is inside
 constexpr const char* kContents = "a web page";
 
 // The page fills the window; it follows the visitor's light or dark setting.
@@ -31,14 +32,14 @@ struct PageObject {
 };
 
 // Opens the object as the page will, so that the page cannot fail on it.
-Result<PageObject> read_page_object(const std::filesystem::path& path) {
+Result<PageObject> read_page_object(const std::filesystem::path& path, int poster_side_px) {
     PageObject object;
     RS_ASSIGN_OR_RETURN(object.file, read_file(path, kMaxObject_bytes));
     RS_ASSIGN_OR_RETURN(ObjectView view, ObjectView::open(object.file, path.string(), kProgressiveLevels - 1));
     object.name = view.object().name.empty() ? path.stem().string() : view.object().name;
     const CapturedCamera& captured = view.captured().front();
     RS_TRY(
-        view.render({kPosterSide_px, kPosterSide_px, captured.azimuth_rad, captured.elevation_rad, captured.distance}));
+        view.render({poster_side_px, poster_side_px, captured.azimuth_rad, captured.elevation_rad, captured.distance}));
     RS_ASSIGN_OR_RETURN(object.poster, encode_png(view.image(), "poster"));
     return object;
 }
@@ -92,7 +93,7 @@ Status write_page(const std::filesystem::path& object, const std::filesystem::pa
                   const PageOptions& options) {
     RS_ASSIGN_OR_RETURN(const WebAssets assets, web_assets());
     RS_TRY(refuse_overwriting_inputs(html_file, {object}));
-    RS_ASSIGN_OR_RETURN(const PageObject shown, read_page_object(object));
+    RS_ASSIGN_OR_RETURN(const PageObject shown, read_page_object(object, kInlinePosterSide_px));
     const Addresses addresses{data_url("application/octet-stream", shown.file), data_url("image/png", shown.poster),
                               data_url("application/gzip", assets.compressed_module)};
     const std::string script = "<script>" + std::string(assets.script) + "</script>";
@@ -103,7 +104,7 @@ Status write_site(const std::filesystem::path& object, const std::filesystem::pa
                   bool force) {
     RS_ASSIGN_OR_RETURN(const WebAssets assets, web_assets());
     RS_TRY(refuse_overwriting_inputs(folder, {object}));
-    RS_ASSIGN_OR_RETURN(const PageObject shown, read_page_object(object));
+    RS_ASSIGN_OR_RETURN(const PageObject shown, read_page_object(object, kPosterSide_px));
     RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, kContents, force));
     const std::filesystem::path& into = staged.temporary_path();
     const std::string file_name = object.filename().string();

@@ -12,8 +12,6 @@
 namespace rs::web {
 namespace {
 
-// Object, images and maps of one page; browsers limit a module to 2 or 4 GiB.
-constexpr std::uint64_t kMemoryCap_bytes = std::uint64_t{1} << 30;
 constexpr std::int64_t kDecodedBudget_bytes = std::int64_t{320} << 20;
 constexpr double kUprightTolerance_rad = 1e-9;
 
@@ -35,8 +33,8 @@ struct UprightPhoto {
 // Follows from a line of the photo (rayspace/api/types/ray_space_object.hpp), best from the one of the plane that the
 // photo faces: with the plane's tangent t it has l1 = t . forward, q1 = fl_x * t . right, l0 = -eye . forward and
 // q0 = -fl_x * eye . right.
-UprightPhoto first_photo(const RaySpaceObject& object, const Ring& ring) {
-    const CapturedView& view = object.views[ring.views.front()];
+UprightPhoto photo_of(const RaySpaceObject& object, const Ring& ring, std::uint16_t number) {
+    const CapturedView& view = object.views[number];
     const auto faces_less = [](const CapturedLine& a, const CapturedLine& b) {
         return std::abs(a.q1_q16) < std::abs(b.q1_q16);
     };
@@ -61,12 +59,17 @@ UprightPhoto first_photo(const RaySpaceObject& object, const Ring& ring) {
 
 }  // namespace
 
+double photo_azimuth_rad(const RaySpaceObject& object, const Ring& ring, std::uint16_t view) {
+    const UprightPhoto photo = photo_of(object, ring, view);
+    return std::atan2(photo.eye.x, photo.eye.z);
+}
+
 std::vector<CapturedCamera> captured_cameras(const RaySpaceObject& object) {
-    const UprightPhoto first = first_photo(object, object.rings.front());
+    const UprightPhoto first = photo_of(object, object.rings.front(), object.rings.front().views.front());
     const double target_height = first.eye.y + first.axis_depth * (first.cy - object.height / 2.0) / first.fl_y;
     std::vector<CapturedCamera> cameras;
     for (const Ring& ring : object.rings) {
-        const UprightPhoto photo = first_photo(object, ring);
+        const UprightPhoto photo = photo_of(object, ring, ring.views.front());
         const double level = std::hypot(photo.eye.x, photo.eye.z);
         const double above = photo.eye.y - target_height;
         cameras.push_back({.distance = std::hypot(level, above),
@@ -86,9 +89,16 @@ Result<ObjectView> ObjectView::open(std::vector<std::byte> file, const std::stri
     RS_ASSIGN_OR_RETURN(const ContainerReader container, ContainerReader::over(std::move(file), name));
     RS_ASSIGN_OR_RETURN(
         RaySpaceObject object,
-        read_object(container, {.max_level = max_level, .memory_cap_bytes = kMemoryCap_bytes, .decode = false}));
+        read_object(container, {.max_level = max_level, .memory_cap_bytes = kPageMemoryCap_bytes, .decode = false}));
     RS_ASSIGN_OR_RETURN(engine::Renderer renderer,
                         engine::Renderer::create(std::move(object), {.decoded_budget_bytes = kDecodedBudget_bytes}));
+    return ObjectView(std::move(renderer));
+}
+
+Result<ObjectView> ObjectView::create(RaySpaceObject object) {
+    RS_ASSIGN_OR_RETURN(engine::Renderer renderer,
+                        engine::Renderer::create(std::move(object), {.decoded_budget_bytes = kDecodedBudget_bytes,
+                                                                     .arrival = engine::ImageArrival::later}));
     return ObjectView(std::move(renderer));
 }
 

@@ -10,11 +10,15 @@
 #include "rayspace/image/image.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace rs::web {
+
+/// Memory of a page's object, images and maps; browsers limit a module to 2 or 4 GiB.
+inline constexpr std::uint64_t kPageMemoryCap_bytes = std::uint64_t{1} << 30;
 
 /// Camera of the captured photos, from the first view of a ring. Lengths in object radii. The target, a point of the
 /// axis, is the same for all rings.
@@ -43,13 +47,21 @@ struct PreparedView {
     std::optional<std::vector<SampledRow>> rows;  // if the registers are those of an upright image of the view
 };
 
+/// Azimuth of a photo's camera, from +Z towards +X.
+double photo_azimuth_rad(const RaySpaceObject& object, const Ring& ring, std::uint16_t view);
+
 class ObjectView {
 public:
     /// Opens an .rso file in memory. `name` begins the messages of errors.
     /// \param max_level highest progressive level whose images are read (encode/FORMAT.md)
     static Result<ObjectView> open(std::vector<std::byte> file, const std::string& name, int max_level);
 
+    /// Shows an object whose coded images arrive later (engine::ImageArrival::later).
+    static Result<ObjectView> create(RaySpaceObject object);
+
     [[nodiscard]] const RaySpaceObject& object() const { return renderer_.object(); }
+    [[nodiscard]] const engine::Renderer& renderer() const { return renderer_; }
+    [[nodiscard]] engine::Renderer& renderer() { return renderer_; }
     [[nodiscard]] const std::vector<CapturedCamera>& captured() const { return captured_; }
 
     /// Photos of the object, decoded on demand.

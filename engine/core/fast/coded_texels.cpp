@@ -19,21 +19,22 @@ std::size_t texels_per_image(const codec::CodedImages& coded) {
 }  // namespace
 
 Result<std::unique_ptr<CodedTexels>> CodedTexels::create(std::shared_ptr<const codec::CodedImages> coded,
-                                                         const std::string& name, std::int64_t budget_bytes) {
+                                                         const std::string& name, std::int64_t budget_bytes,
+                                                         ImageArrival arrival) {
     // Lanes without a ray read texel 0, which belongs to no image.
     TexelLayout layout{coded->width, coded->height, {}};
     const std::size_t per_image = texels_per_image(*coded);
     std::size_t size = ReservedMemory::whole_pages(1);
     for (const codec::CodedImage& image : coded->images) {
         layout.image_start.push_back(static_cast<std::int32_t>(size));
-        if (image.loaded()) size += per_image;
+        if (image.loaded() || arrival == ImageArrival::later) size += per_image;
         if (size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) return too_many_texels(name);
     }
     RS_ASSIGN_OR_RETURN(ReservedMemory memory, ReservedMemory::create(size * sizeof(Rgba8), name));
     RS_ASSIGN_OR_RETURN(
         ReservedMemory details,
         ReservedMemory::create(ReservedMemory::whole_pages(size + TexelLayout::kMinColumnStride), name));
-    RS_ASSIGN_OR_RETURN(std::unique_ptr<SampleStore> samples, SampleStore::create(std::move(coded), name));
+    RS_ASSIGN_OR_RETURN(std::unique_ptr<SampleStore> samples, SampleStore::create(std::move(coded), name, arrival));
     return std::unique_ptr<CodedTexels>(
         new CodedTexels(std::move(samples), std::move(layout), std::move(memory), std::move(details), budget_bytes));
 }

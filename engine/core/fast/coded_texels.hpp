@@ -60,7 +60,8 @@ class CodedTexels {
 public:
     /// \param budget_bytes  samples and texels together; images of views being rendered are kept even beyond it
     static Result<std::unique_ptr<CodedTexels>> create(std::shared_ptr<const codec::CodedImages> coded,
-                                                       const std::string& name, std::int64_t budget_bytes);
+                                                       const std::string& name, std::int64_t budget_bytes,
+                                                       ImageArrival arrival = ImageArrival::complete);
 
     /// No two images share a memory page, and none shares one with texel 0 (texel_store.hpp).
     [[nodiscard]] const TexelLayout& layout() const { return layout_; }

@@ -65,35 +65,50 @@ void render_pixels(const Pixel& pixel, ImageView<Rgba8> out, ImageView<std::int3
     });
 }
 
+bool is_any_loaded(const Ring& ring, const std::vector<bool>& loaded) {
+    return std::any_of(ring.views.begin(), ring.views.end(), [&](std::uint16_t view) { return loaded[view]; });
+}
+
+bool are_all_loaded(const Ring& ring, const std::vector<bool>& loaded) {
+    return std::all_of(ring.views.begin(), ring.views.end(), [&](std::uint16_t view) { return loaded[view]; });
+}
+
+// The RS map with the nearest loaded views in turning order in place of missing ones; without any, kNoImage.
+std::vector<std::uint16_t> substituted_cells(const Ring& ring, const std::vector<bool>& loaded) {
+    const int count = static_cast<int>(ring.views.size());
+    const auto view_at = [&](int n) { return ring.views[static_cast<std::size_t>(n)]; };
+    std::vector<std::uint16_t> substitute(loaded.size(), kNoImage);
+    for (int n = 0; n < count; ++n) {
+        std::uint16_t& found = substitute[view_at(n)];
+        for (int away = 0; away <= count / 2 && found == kNoImage; ++away) {
+            for (const int candidate : {(n - away + count) % count, (n + away) % count}) {
+                if (!loaded[view_at(candidate)]) continue;
+                found = view_at(candidate);
+                break;
+            }
+        }
+    }
+    std::vector<std::uint16_t> cells = ring.cells;
+    for (std::uint16_t& cell : cells) {
+        if (cell != kNoImage) cell = substitute[cell];
+    }
+    return cells;
+}
+
 }  // namespace
 
 Status substitute_missing_images(RaySpaceObject& object) {
     const bool coded = has_only_coded_images(object);
-    const auto is_loaded = [&](std::uint16_t view) {
-        return coded ? object.coded->images[view].loaded() : !object.images[view].empty();
-    };
+    std::vector<bool> loaded;
+    for (std::size_t view = 0; view < object.views.size(); ++view) {
+        loaded.push_back(coded ? object.coded->images[view].loaded() : !object.images[view].empty());
+    }
     for (Ring& ring : object.rings) {
-        const int count = static_cast<int>(ring.views.size());
-        const auto loaded = [&](int n) { return is_loaded(ring.views[static_cast<std::size_t>(n)]); };
-        std::vector<std::uint16_t> substitute(object.views.size(), kNoImage);
-        for (int n = 0; n < count; ++n) {
-            for (int away = 0; away <= count / 2 && substitute[ring.views[static_cast<std::size_t>(n)]] == kNoImage;
-                 ++away) {
-                for (const int candidate : {(n - away + count) % count, (n + away) % count}) {
-                    if (!loaded(candidate)) continue;
-                    substitute[ring.views[static_cast<std::size_t>(n)]] =
-                        ring.views[static_cast<std::size_t>(candidate)];
-                    break;
-                }
-            }
-            if (substitute[ring.views[static_cast<std::size_t>(n)]] == kNoImage) {
-                return Error{object.name + ": a ring has no image loaded; read the object at a higher level"};
-            }
+        if (!is_any_loaded(ring, loaded)) {
+            return Error{object.name + ": a ring has no image loaded; read the object at a higher level"};
         }
-        if (!std::all_of(ring.views.begin(), ring.views.end(), is_loaded)) ring.shape = {};
-        for (std::uint16_t& cell : ring.cells) {
-            if (cell != kNoImage) cell = substitute[cell];
-        }
+        if (!are_all_loaded(ring, loaded)) ring.shape = {};
+        ring.cells = substituted_cells(ring, loaded);
     }
     return {};
 }
@@ -101,11 +116,72 @@ Status substitute_missing_images(RaySpaceObject& object) {
 Renderer::Renderer(RaySpaceObject object, TexelStore texels) : object_(std::move(object)), texels_(std::move(texels)) {}
 
 Result<Renderer> Renderer::create(RaySpaceObject object, const RendererOptions& options) {
-    RS_TRY(substitute_missing_images(object));
-    RS_ASSIGN_OR_RETURN(TexelStore texels, TexelStore::create(object, options.decoded_budget_bytes));
+    const bool is_arriving = options.arrival == ImageArrival::later && has_only_coded_images(object);
+    if (!is_arriving) RS_TRY(substitute_missing_images(object));
+    RS_ASSIGN_OR_RETURN(TexelStore texels,
+                        TexelStore::create(object, options.decoded_budget_bytes,
+                                           is_arriving ? ImageArrival::later : ImageArrival::complete));
     object.images.clear();
     object.images.shrink_to_fit();
-    return Renderer(std::move(object), std::move(texels));
+    Renderer renderer(std::move(object), std::move(texels));
+    if (is_arriving) {
+        renderer.substituted_ = renderer.object_;
+        for (Ring& ring : renderer.substituted_->rings) ring.shape = {};
+        renderer.images_arrived();
+    } else {
+        renderer.decodable_.assign(renderer.object_.views.size(), true);
+    }
+    return renderer;
+}
+
+void Renderer::images_arrived() {
+    if (!substituted_) return;
+    decodable_ = decodable_images(*object_.coded);
+    if (std::all_of(decodable_.begin(), decodable_.end(), [](bool is_decodable) { return is_decodable; })) {
+        substituted_.reset();
+        return;
+    }
+    for (std::size_t r = 0; r < object_.rings.size(); ++r) {
+        substituted_->rings[r].cells = substituted_cells(object_.rings[r], decodable_);
+    }
+}
+
+void Renderer::shape_arrived(std::size_t ring, ShapeMap shape) {
+    object_.rings[ring].shape = std::move(shape);
+}
+
+bool Renderer::has_images(int ring) const {
+    return is_any_loaded(object_.rings[static_cast<std::size_t>(ring)], decodable_);
+}
+
+std::vector<int> Renderer::images_of(const ViewRegisters& registers) const {
+    const Ring& ring = object_.rings[static_cast<std::size_t>(registers.ring)];
+    if (!registers.upright()) return {ring.views.begin(), ring.views.end()};
+    std::vector<bool> is_read(object_.views.size(), false);
+    for (int i = 0; i < registers.width; ++i) {
+        if (ring.shape.empty()) {
+            const RaySetup ray = set_up_ray(object_, registers, i, 0);
+            if (ray.image >= 0) is_read[static_cast<std::size_t>(ray.image)] = true;
+            continue;
+        }
+        const ShapeSetup setup = set_up_shape(object_, registers, i, 0);
+        if (!setup.has_ray) continue;
+        if (setup.weight < 256) is_read[static_cast<std::size_t>(setup.first.view)] = true;
+        if (setup.weight > 0) is_read[static_cast<std::size_t>(setup.second.view)] = true;
+    }
+    std::vector<int> views;
+    for (std::size_t view = 0; view < is_read.size(); ++view) {
+        if (is_read[view]) views.push_back(static_cast<int>(view));
+    }
+    return views;
+}
+
+// The object itself if it has all images that a view reads, else the one with substitutes.
+const RaySpaceObject& Renderer::object_for(const ViewRegisters& registers) const {
+    if (!substituted_) return object_;
+    const auto is_decodable = [&](int view) { return bool{decodable_[static_cast<std::size_t>(view)]}; };
+    const std::vector<int> views = images_of(registers);
+    return std::all_of(views.begin(), views.end(), is_decodable) ? object_ : *substituted_;
 }
 
 std::int64_t Renderer::memory_bytes() const {
@@ -116,26 +192,27 @@ void Renderer::render(const ViewRegisters& registers, ImageView<Rgba8> out, Imag
     RS_CHECK(out.width() == registers.width && out.height() == registers.height);
     RS_CHECK(lambda_q20.empty() || (lambda_q20.width() == registers.width && lambda_q20.height() == registers.height));
     const TexelStore::Reading reading = texels_.read();
-    const bool has_shape = !object_.rings[static_cast<std::size_t>(registers.ring)].shape.empty();
+    const RaySpaceObject& object = object_for(registers);
+    const bool has_shape = !object.rings[static_cast<std::size_t>(registers.ring)].shape.empty();
     if (has_shape && registers.upright() && can_walk_shape()) {
         render_shape_upright(registers, out, lambda_q20);
     } else if (has_shape) {
         render_shape_pixels(registers, out, lambda_q20);
     } else if (registers.upright()) {
-        render_upright(registers, out, lambda_q20);
+        render_upright(object, registers, out, lambda_q20);
     } else {
-        render_tilted(registers, out, lambda_q20);
+        render_tilted(object, registers, out, lambda_q20);
     }
 }
 
-void Renderer::render_upright(const ViewRegisters& registers, ImageView<Rgba8> out,
+void Renderer::render_upright(const RaySpaceObject& object, const ViewRegisters& registers, ImageView<Rgba8> out,
                               ImageView<std::int32_t> lambda) const {
     const int strips = strip_count(registers);
     std::vector<ColumnStrip> strip(static_cast<std::size_t>(strips));
     const int grain = texels_.is_coded() ? 1 : 8;  // decoding is slow enough for one task per strip
     for_each_range(strips, grain, [&](int begin, int end) {
         for (int s = begin; s < end; ++s) {
-            strip[static_cast<std::size_t>(s)] = set_up_strip(object_, texels_, registers, s * kStripColumns);
+            strip[static_cast<std::size_t>(s)] = set_up_strip(object, texels_, registers, s * kStripColumns);
         }
     });
     const int tiles = (registers.height + kRowsPerTile - 1) / kRowsPerTile;
@@ -150,7 +227,7 @@ void Renderer::render_upright(const ViewRegisters& registers, ImageView<Rgba8> o
     });
     if (lambda.empty()) return;
     std::vector<std::int32_t> column_lambda;
-    for (int i = 0; i < registers.width; ++i) column_lambda.push_back(set_up_ray(object_, registers, i, 0).lambda_q20);
+    for (int i = 0; i < registers.width; ++i) column_lambda.push_back(set_up_ray(object, registers, i, 0).lambda_q20);
     for_each_index(registers.height, [&](int j) {
         for (int i = 0; i < registers.width; ++i) {
             lambda(i, j) = out(i, j).a > 0 ? column_lambda[static_cast<std::size_t>(i)] : 0;
@@ -158,13 +235,13 @@ void Renderer::render_upright(const ViewRegisters& registers, ImageView<Rgba8> o
     });
 }
 
-void Renderer::render_tilted(const ViewRegisters& registers, ImageView<Rgba8> out,
+void Renderer::render_tilted(const RaySpaceObject& object, const ViewRegisters& registers, ImageView<Rgba8> out,
                              ImageView<std::int32_t> lambda) const {
     const auto pixel = [&](int i, int j) -> ShapePixel {
-        const RaySetup ray = set_up_ray(object_, registers, i, j);
+        const RaySetup ray = set_up_ray(object, registers, i, j);
         if (ray.image < 0) return {};
         const std::int64_t row = ray.row(j);
-        if (row < 0 || row >= object_.height) return {};
+        if (row < 0 || row >= object.height) return {};
         texels_.ensure(ray.image, ray.column, ray.column);
         return {texels_.texels()[texels_.column_start(ray.image, ray.column) + row], ray.lambda_q20};
     };

@@ -12,7 +12,10 @@
 #include "rayspace/image/image.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace rs::engine {
 
@@ -25,6 +28,8 @@ struct RendererOptions {
     // Memory for decoded images that is kept between views, for objects whose images are compressed; 9 bytes per pixel.
     // A view may exceed it while it is rendered.
     std::int64_t decoded_budget_bytes = std::int64_t{256} << 20;
+    // `later`: coded images of the object are loaded while it is rendered; images_arrived() must be called then.
+    ImageArrival arrival = ImageArrival::complete;
 };
 
 class Renderer {
@@ -34,11 +39,22 @@ public:
     /// now, and Y, U, V and alpha are freed.
     static Result<Renderer> create(RaySpaceObject object, const RendererOptions& options = {});
 
-    /// The object without its unpacked images.
+    /// The object without its unpacked images. With ImageArrival::later its RS maps also name missing images.
     [[nodiscard]] const RaySpaceObject& object() const { return object_; }
 
     /// The texels of its images, decoded on demand.
     [[nodiscard]] const TexelStore& texels() const { return texels_; }
+    /// Takes note of coded images that were loaded into the object's `coded`, and of a ring's shape map that was
+    /// missing (ImageArrival::later). Until a ring is complete, views are rendered with its shape map if all their
+    /// images are there, else without it and with substitutes for missing images. No other thread may use the renderer.
+    void images_arrived();
+    void shape_arrived(std::size_t ring, ShapeMap shape);
+    /// True if a ring has an image that can be decoded.
+    [[nodiscard]] bool has_images(int ring) const;
+    /// [view]: true if an image can be rendered.
+    [[nodiscard]] const std::vector<bool>& decodable() const { return decodable_; }
+    /// Views whose images an upright view reads, ascending; all views of the ring for a tilted one.
+    [[nodiscard]] std::vector<int> images_of(const ViewRegisters& registers) const;
 
     /// Memory of the renderer and the object; changes as coded images are decoded and freed.
     [[nodiscard]] std::int64_t memory_bytes() const;
@@ -52,8 +68,11 @@ public:
 
 private:
     Renderer(RaySpaceObject object, TexelStore texels);
-    void render_upright(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda) const;
-    void render_tilted(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda) const;
+    [[nodiscard]] const RaySpaceObject& object_for(const ViewRegisters& registers) const;
+    void render_upright(const RaySpaceObject& object, const ViewRegisters& registers, ImageView<Rgba8> out,
+                        ImageView<std::int32_t> lambda) const;
+    void render_tilted(const RaySpaceObject& object, const ViewRegisters& registers, ImageView<Rgba8> out,
+                       ImageView<std::int32_t> lambda) const;
     void render_shape_upright(const ViewRegisters& registers, ImageView<Rgba8> out,
                               ImageView<std::int32_t> lambda) const;
     void render_shape_pixels(const ViewRegisters& registers, ImageView<Rgba8> out,
@@ -61,6 +80,9 @@ private:
 
     RaySpaceObject object_;
     TexelStore texels_;
+    std::vector<bool> decodable_;  // [view]
+    // The object with substitutes in its RS maps and without shape maps; until all images have arrived.
+    std::optional<RaySpaceObject> substituted_;
 };
 
 }  // namespace rs::engine

@@ -1,5 +1,7 @@
 #include "engine/core/fast/sample_store.hpp"
 
+#include "rayspace/object/ray_space_object.hpp"
+
 #include <utility>
 
 namespace rs::engine {
@@ -15,12 +17,12 @@ std::size_t image_bytes(const CodedImages& coded) {
     return ReservedMemory::whole_pages(4 * plane_bytes(coded));
 }
 
-// True if all references are loaded and of a lower level, so that recursive decoding terminates.
-bool has_valid_references(const CodedImages& coded, std::size_t view) {
+// True if all references are decodable and of a lower level.
+bool has_valid_references(const CodedImages& coded, std::size_t view, const std::vector<bool>& decodable) {
     const codec::CodedImage& image = coded.images[view];
     for (std::size_t r = 0; r < static_cast<std::size_t>(image.head.references()); ++r) {
         const std::size_t reference = image.head.reference[r];
-        if (reference >= coded.images.size() || !coded.images[reference].loaded()) return false;
+        if (reference >= coded.images.size() || !decodable[reference]) return false;
         if (coded.levels[reference] >= coded.levels[view]) return false;
     }
     return true;
@@ -50,13 +52,24 @@ private:
 
 }  // namespace
 
+std::vector<bool> decodable_images(const CodedImages& coded) {
+    const auto tiles = static_cast<std::size_t>(coded.tile_columns() * coded.tile_rows());
+    std::vector<bool> decodable(coded.images.size(), false);
+    if (coded.levels.size() != coded.images.size()) return decodable;
+    for (int level = 0; level < kProgressiveLevels; ++level) {
+        for (std::size_t v = 0; v < coded.images.size(); ++v) {
+            if (coded.levels[v] != level || coded.images[v].tiles.size() != tiles) continue;
+            decodable[v] = has_valid_references(coded, v, decodable);
+        }
+    }
+    return decodable;
+}
+
 Result<std::unique_ptr<SampleStore>> SampleStore::create(std::shared_ptr<const CodedImages> coded,
-                                                         const std::string& name) {
-    const auto tiles = static_cast<std::size_t>(coded->tile_columns() * coded->tile_rows());
-    for (std::size_t v = 0; v < coded->images.size(); ++v) {
-        if (!coded->images[v].loaded()) continue;
-        if (coded->images[v].tiles.size() != tiles || coded->levels.size() != coded->images.size() ||
-            !has_valid_references(*coded, v)) {
+                                                         const std::string& name, ImageArrival arrival) {
+    const std::vector<bool> decodable = decodable_images(*coded);
+    for (std::size_t v = 0; v < coded->images.size() && arrival == ImageArrival::complete; ++v) {
+        if (coded->images[v].loaded() && !decodable[v]) {
             return Error{name + ": image " + std::to_string(v) +
                          " is predicted from images that are not loaded, or has wrong tiles; read the object again"};
         }

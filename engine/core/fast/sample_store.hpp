@@ -17,12 +17,23 @@
 
 namespace rs::engine {
 
+/// [view]: true if an image and those that it is predicted from are loaded, have all their tiles, and have descending
+/// levels, so that recursive decoding terminates.
+std::vector<bool> decodable_images(const codec::CodedImages& coded);
+
+/// Images that may be read by a store.
+enum class ImageArrival {
+    complete,  // those that are loaded when it is created; they must be decodable
+    later,     // images may be loaded until they are first read; only decodable ones may be read
+};
+
 class SampleStore {
 public:
     /// \return error, prefixed by `name`, if a loaded image is predicted from one that is not loaded or not of a lower
     ///         level, or if the addresses cannot be reserved
     static Result<std::unique_ptr<SampleStore>> create(std::shared_ptr<const codec::CodedImages> coded,
-                                                       const std::string& name);
+                                                       const std::string& name,
+                                                       ImageArrival arrival = ImageArrival::complete);
 
     [[nodiscard]] const codec::CodedImages& coded() const { return *coded_; }
 

@@ -15,11 +15,12 @@ bool has_only_coded_images(const RaySpaceObject& object) {
                                                   [](const PlanarImage& image) { return image.empty(); });
 }
 
-Result<TexelStore> TexelStore::create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes) {
+Result<TexelStore> TexelStore::create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes,
+                                      ImageArrival arrival) {
     TexelStore store;
     if (has_only_coded_images(object)) {
         RS_ASSIGN_OR_RETURN(std::unique_ptr<CodedTexels> coded,
-                            CodedTexels::create(object.coded, object.name, decoded_budget_bytes));
+                            CodedTexels::create(object.coded, object.name, decoded_budget_bytes, arrival));
         store.coded_ = std::move(coded);
         store.layout_ = store.coded_->layout();
         return store;

@@ -28,10 +28,11 @@ bool has_only_coded_images(const RaySpaceObject& object);
 
 class TexelStore {
 public:
-    /// Images that are not loaded take no memory and must not be requested.
+    /// Images that are not loaded take no memory and must not be requested. Only coded images can arrive later.
     /// \return error if the images and their borders have 2^31 pixels or more (indices are 32 bits wide), or if coded
     ///         images cannot be decoded
-    static Result<TexelStore> create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes);
+    static Result<TexelStore> create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes,
+                                     ImageArrival arrival = ImageArrival::complete);
 
     /// Memory of a store of `count` unpacked images of width x height pixels.
     static std::int64_t bytes_of_images(int width, int height, std::int64_t count);

@@ -30,7 +30,7 @@ struct ChunkMemory {
 };
 
 /// Stages are read in order. The memory of the first stage is bounded by counts that its parsers check.
-enum class ReadStage { geometry, maps, images };
+enum class ReadStage { geometry, maps, shapes, images };
 enum class ChunkScope { object, ring, view };
 
 /// One kind of chunk. The table is in file order: chunks per object, then per ring, then per view by levels. `index` is

@@ -282,7 +282,7 @@ Status check_shape(const Ring& ring) {
 ChunkKind shape_chunk() {
     return {.name = kShape,
             .each = ChunkScope::ring,
-            .stage = ReadStage::maps,
+            .stage = ReadStage::shapes,
             .is_present = [](const RaySpaceObject& object, std::uint32_t r) { return !object.rings[r].shape.empty(); },
             .payload = [](const RaySpaceObject& object, std::uint32_t r) { return shape_payload(object.rings[r]); },
             .memory = shape_memory,
