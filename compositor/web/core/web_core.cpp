@@ -2,9 +2,8 @@
 // web_error() then gives the message. Memory for inputs is allocated by web_allocate() and passed on to the function
 // that takes it.
 
-#include "compositor/web/view/object_view.hpp"
+#include "compositor/web/core/web_core.hpp"
 
-#include <emscripten/emscripten.h>
 #include <xxhash.h>
 
 #include <cstdlib>
@@ -12,19 +11,12 @@
 #include <optional>
 #include <span>
 
-#define WEB_EXPORT extern "C" EMSCRIPTEN_KEEPALIVE
-
 namespace rs::web {
 namespace {
 
 std::optional<ObjectView> opened;
 std::string last_error;
 std::vector<double> description;
-
-bool succeeded(const Status& status) {
-    if (!status) last_error = status.error().message;
-    return status.ok();
-}
 
 engine::LinearForm next_form(std::span<const double>& values) {
     const auto take = [&](std::size_t i) { return static_cast<std::int64_t>(values[i]); };
@@ -57,6 +49,16 @@ engine::ViewRegisters registers_from(std::span<const double> values) {
 }
 
 }  // namespace
+
+std::optional<ObjectView>& opened_view() {
+    return opened;
+}
+
+bool succeeded(const Status& status) {
+    if (!status) last_error = status.error().message;
+    return status.ok();
+}
+
 }  // namespace rs::web
 
 using namespace rs::web;

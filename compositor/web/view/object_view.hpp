@@ -43,7 +43,10 @@ public:
     static Result<ObjectView> open(std::vector<std::byte> file, const std::string& name, int max_level);
 
     [[nodiscard]] const RaySpaceObject& object() const { return renderer_.object(); }
+    [[nodiscard]] const engine::Renderer& renderer() const { return renderer_; }
     [[nodiscard]] const std::vector<CapturedCamera>& captured() const { return captured_; }
+    /// Camera of a view. Lengths in object radii.
+    [[nodiscard]] Camera camera_of(const OrbitView& view) const;
 
     /// Renders a view with straight alpha. \return error for views outside of the ranges of prepare_view()
     Status render(const OrbitView& view);
@@ -55,7 +58,6 @@ public:
 
 private:
     explicit ObjectView(engine::Renderer renderer);
-    [[nodiscard]] Camera camera_of(const OrbitView& view) const;
 
     engine::Renderer renderer_;
     std::vector<CapturedCamera> captured_;  // [ring]
