@@ -2,7 +2,7 @@
 
 import workerSource from "worker-source";
 import { CoreError, type ObjectDescription, type Orbit } from "./core.js";
-import { type Answer, CoreServer, type Request } from "./core_server.js";
+import { type Answer, CoreServer, type GeometryAnswer, type GeometryRequest, type Request } from "./core_server.js";
 
 export interface ViewRenderer {
   /** Canvas with the last view; the element places it. */
@@ -11,6 +11,8 @@ export interface ViewRenderer {
   open(file: ArrayBuffer, name: string): Promise<ObjectDescription>;
   /** Renders a view of the given size in pixels into the canvas. One call at a time. */
   render(width: number, height: number, view: Orbit): Promise<void>;
+  /** Answers a question about the object's geometry. */
+  ask(request: GeometryRequest): Promise<GeometryAnswer>;
   /** Ends the renderer and frees its memory. */
   close(): void;
 }
@@ -78,6 +80,10 @@ export class CoreRenderer implements ViewRenderer {
     if (this.canvas.width !== width) this.canvas.width = width;
     if (this.canvas.height !== height) this.canvas.height = height;
     this.context.putImageData(new ImageData(pixels!, width, height), 0, 0);
+  }
+
+  ask(request: GeometryRequest): Promise<GeometryAnswer> {
+    return this.send(request);
   }
 
   close(): void {
