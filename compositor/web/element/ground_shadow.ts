@@ -1,8 +1,7 @@
 // Soft contact shadow on the ground below the object: a texture, computed once from the object's footprint, on a plane that
 // CSS transforms into the view.
 
-import type { Footprint } from "./core.js";
-import { kFootprintSide } from "./core.js";
+import { type Footprint, kFootprintSide } from "./core.js";
 import type { ViewProjection } from "./view_projection.js";
 
 const kTexels = 128; // side of the texture

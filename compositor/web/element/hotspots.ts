@@ -34,6 +34,7 @@ interface Hotspot {
   holder: HTMLElement;
   position?: Point;
   normal: Point;
+  source?: string; // texts of both
   at: Point;
   visible?: boolean;
 }
@@ -130,6 +131,9 @@ function holder(slot: string): HTMLElement {
 // Without a normal, a hotspot faces away from the axis; on the axis, it is always visible.
 function readPlace(spot: Hotspot): void {
   const { position, normal } = spot.child.dataset;
+  const source = `${position}, ${normal}`;
+  if (source === spot.source) return;
+  spot.source = source;
   spot.position = parsePoint(position);
   spot.holder.hidden = !spot.position;
   if (!spot.position) {

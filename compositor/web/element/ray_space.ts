@@ -59,6 +59,7 @@ export class RaySpaceElement extends HTMLElement {
   private near = false;
   private shown = false;
   private waits = false; // for the page to be scrolled to the object before it is loaded
+  private shadowLook = { intensity: 0, softness: 1 };
   private shadowSoftness = -1; // of the painted shadow; -1: not painted
   private descriptions: SideDescriptions = {};
   private loop = 0;
@@ -252,6 +253,10 @@ export class RaySpaceElement extends HTMLElement {
     if (image) poster.src = image;
     poster.hidden = !image;
     this.controls.decay_ms = this.number("interpolation-decay", kDecay_ms);
+    this.shadowLook = {
+      intensity: Math.min(this.number("shadow-intensity", 0), 1),
+      softness: Math.min(this.number("shadow-softness", 1), 1),
+    };
     const descriptions = parseDescriptions(this.getAttribute("a11y") ?? "{}");
     if (!descriptions) console.warn('ray-space: a11y is no JSON object of texts, such as {"front": "Front with the logo"}');
     this.descriptions = descriptions ?? {};
@@ -472,8 +477,8 @@ export class RaySpaceElement extends HTMLElement {
     const { width, height } = getComputedStyle(this.stage); // not rounded, and before transforms of the page
     const projection = new ViewProjection(view, this.object, Number.parseFloat(width), Number.parseFloat(height));
     this.hotspots.place(projection);
-    const intensity = Math.min(this.number("shadow-intensity", 0), 1);
-    if (intensity > 0) void this.paintShadow(Math.min(this.number("shadow-softness", 1), 1));
+    const { intensity, softness } = this.shadowLook;
+    if (intensity > 0) void this.paintShadow(softness);
     this.shadow.place(projection, intensity);
   }
 
@@ -481,10 +486,14 @@ export class RaySpaceElement extends HTMLElement {
     if (softness === this.shadowSoftness || !this.renderer) return;
     this.shadowSoftness = softness;
     const { renderer } = this;
-    const { footprint } = await renderer.ask({ kind: "footprint" });
-    if (renderer !== this.renderer) return;
-    this.shadow.paint(footprint!, softness);
-    this.invalidate();
+    try {
+      const { footprint } = await renderer.ask({ kind: "footprint" });
+      if (renderer !== this.renderer) return;
+      this.shadow.paint(footprint!, softness);
+      this.invalidate();
+    } catch (error) {
+      console.warn("ray-space: the shadow cannot be computed:", error);
+    }
   }
 
   private async draw(scale: number): Promise<void> {

@@ -34,7 +34,7 @@ export class ViewProjection {
     this.focal_px = width / (2 * Math.max(tanHalfX, (tanHalfY * width) / height));
   }
 
-  /** Homogeneous pixel position (x w, y w, w) of a direction, or with `offset` of a point; w is the axial depth. */
+  /** Homogeneous pixel position (x w, y w, w) of a vector from the eye; w is the axial depth. */
   private homogeneous(direction: Point): Point {
     const depth = dot(direction, this.forward);
     return [
