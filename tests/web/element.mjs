@@ -42,7 +42,19 @@ async function openLoaded(name, options) {
   await settled(page);
   return page;
 }
-const settled = (page) => page.waitForTimeout(400);
+// Waits until view, hotspots and shadow rest.
+async function settled(page) {
+  const state = () =>
+    inElement(page, (element) => {
+      const styles = [...element.shadowRoot.querySelectorAll(".hotspot, [part~=ground-shadow]")].map((each) => each.getAttribute("style"));
+      return element.toDataURL() + element.shadowRoot.querySelector("[part~=progress]").hidden + styles;
+    });
+  let last;
+  for (let now = ""; now !== last; now = await state()) {
+    last = now;
+    await page.waitForTimeout(400);
+  }
+}
 const inElement = (page, act, argument) => page.$eval("ray-space", act, argument);
 const set = (page, name, value) => inElement(page, (element, [name, value]) => element.setAttribute(name, value), [name, value]);
 

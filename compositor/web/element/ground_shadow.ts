@@ -6,6 +6,7 @@ import type { ViewProjection } from "./view_projection.js";
 
 const kTexels = 128; // side of the texture
 const kReach = 1.8; // half side of the plane, object radii
+const kSmallestBlur_px = 1.5; // hides the cells of the footprint
 const kFade = 0.15; // height of the eye above the ground, below which the shadow fades; object radii
 
 // Shadow of all surfaces up to a height, blurred by a standard deviation that grows with it. Object radii. A soft shadow is
@@ -25,7 +26,7 @@ export function shadowTexture(footprint: Footprint, softness: number): Float32Ar
     const weight = softness * layer.weight + last;
     if (weight === 0) continue;
     const covered = coverage(footprint, layer.height);
-    blur(covered, (softness * layer.blur * kTexels) / (2 * kReach));
+    blur(covered, Math.max((softness * layer.blur * kTexels) / (2 * kReach), kSmallestBlur_px));
     covered.forEach((value, i) => {
       sum[i] += weight * value;
     });
