@@ -20,6 +20,15 @@ expect_same() {
   cmp "$2" "$WORK/expected.png" || fail "$2 differs from the image that $1 renders"
 }
 
+# expect_web_files PREFIX: what web pages need is installed, if the web part is built.
+expect_web_files() {
+  local file
+  [ -e "$BUILD/compositor/web/ray-space.js" ] || return 0
+  for file in ray-space.js ray-space.wasm npm/package.json npm/README.md npm/ray-space.js npm/ray-space.wasm npm/types/ray_space.d.ts; do
+    [ -s "$1/share/rayspace/web/$file" ] || fail "share/rayspace/web/$file is not installed"
+  done
+}
+
 # in_root OPTIONS...: dpkg in $ROOT, without root privileges. It refuses a package whose dependencies are not installed.
 # The package's scripts call ldconfig, which is replaced by one that is limited to $ROOT.
 in_root() {
@@ -64,6 +73,7 @@ expect_all_stated() {
 case "$2" in
   library) # find_package(Rayspace) in another project
     cmake --install "$BUILD" --prefix "$WORK/there" >"$WORK/install.log"
+    expect_web_files "$WORK/there"
     cmake -S "$HERE/../../examples" -B "$WORK/examples" -DCMAKE_PREFIX_PATH="$WORK/there" -DCMAKE_BUILD_TYPE=Release >"$WORK/log" || { cat "$WORK/log"; fail "find_package"; }
     cmake --build "$WORK/examples" >"$WORK/log" || { cat "$WORK/log"; fail "the examples do not build"; }
     foreign=$(cd "$WORK/there/include/"* && find . -name '*.hpp' ! -path './rayspace/api/*')
@@ -91,6 +101,7 @@ case "$2" in
     in_root --install "$PACKAGE"
     [ -e "$ROOT/usr/lib/rayspace/librayspace_image_io.so" ] || fail "the package lacks its image module"
     expect_all_stated
+    expect_web_files "$ROOT/usr"
     for tool in "$ROOT"/usr/bin/*; do
       (cd "$WORK" && "$tool" --help >/dev/null) || fail "$tool does not start"
     done

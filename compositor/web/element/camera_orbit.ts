@@ -36,11 +36,31 @@ export function formatOrbit(view: Orbit, captured: Orbit): string {
   return `${degrees(view.azimuth)} ${degrees(Math.PI / 2 - view.elevation)} ${percent}%`;
 }
 
+/** Descriptions of sides by the keys of the attribute `a11y`, such as "front" and "upper-back-left". */
+export type SideDescriptions = Record<string, string>;
+
 /** The side that a view shows, in words, for screen readers. */
-export function describeView(view: Orbit, captured: Orbit): string {
-  const sides = ["front", "front right", "right", "back right", "back", "back left", "left", "front left"];
+export function describeView(view: Orbit, captured: Orbit, descriptions: SideDescriptions = {}): string {
+  const sides = ["front", "front-right", "right", "back-right", "back", "back-left", "left", "front-left"];
   const turn = (view.azimuth - captured.azimuth) / (2 * Math.PI);
   const side = sides[((Math.round(turn * 8) % 8) + 8) % 8];
   const above = view.elevation - captured.elevation;
-  return `View from the ${side}${above > 8 * kDegree ? ", from higher" : above < -8 * kDegree ? ", from lower" : ""}`;
+  const height = above > 8 * kDegree ? "upper" : above < -8 * kDegree ? "lower" : "";
+  const given = descriptions[height ? `${height}-${side}` : side] ?? descriptions[side];
+  if (given) return given;
+  const words = { upper: ", from higher", lower: ", from lower", "": "" };
+  return `View from the ${side.replace("-", " ")}${words[height]}`;
+}
+
+/** Parses the attribute `a11y`, a JSON object of texts; undefined if it is none. */
+export function parseDescriptions(text: string): SideDescriptions | undefined {
+  try {
+    const value: unknown = JSON.parse(text);
+    if (value && typeof value === "object" && Object.values(value).every((each) => typeof each === "string")) {
+      return value as SideDescriptions;
+    }
+  } catch {
+    // no JSON
+  }
+  return undefined;
 }

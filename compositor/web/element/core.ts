@@ -30,6 +30,10 @@ interface Exports {
   web_stream_next(
     width: number, height: number, azimuth: number, elevation: number, distance: number, requested: number, count: number,
   ): number;
+  web_lens(): number;
+  web_footprint(ground: number): number;
+  web_project(view: number, x: number, y: number, z: number): number;
+  web_surface_point(view: number, x: number, y: number): number;
 }
 
 /** A ring of photos. Angles in radians, lengths in object radii. */
@@ -47,6 +51,24 @@ export interface ObjectDescription {
   height: number;
   photos: number;
   rings: CapturedRing[];
+  /** Half width and half height of the photos at depth 1. */
+  lens: { tanHalfX: number; tanHalfY: number };
+}
+
+export const kFootprintSide = 64;
+
+/** The object seen from below (compositor/web/view/footprint.hpp). */
+export interface Footprint {
+  /** Y of the ground in object radii. */
+  ground: number;
+  /** Height of the lowest surface above the ground in 1/128 object radii; 255: none. Rows along +X, X and Z in [-1, 1]. */
+  clearance: Uint8Array<ArrayBuffer>;
+}
+
+/** Point of the surface, in object radii, with its normal. */
+export interface SurfacePoint {
+  position: [number, number, number];
+  normal: [number, number, number];
 }
 
 /** Camera on an orbit about the object; azimuth from +Z towards +X. */
@@ -176,6 +198,42 @@ export class Core {
     return this.pixels(this.guarded(() => this.wasm.web_render(width, height, azimuth, elevation, distance)), width * height);
   }
 
+  /** Computes the object's footprint from its shape maps. */
+  footprint(): Footprint {
+    const ground = this.copied(new Uint8Array(8));
+    const at = this.guarded(() => this.wasm.web_footprint(ground));
+    const clearance = new Uint8Array(this.wasm.memory.buffer, at, kFootprintSide ** 2).slice();
+    const [y] = this.doubles(ground, 1);
+    this.wasm.web_free(ground);
+    return { ground: y, clearance };
+  }
+
+  /** Surface at a pixel position of a view; undefined beside the object. */
+  surfacePoint(width: number, height: number, view: Orbit, x: number, y: number): SurfacePoint | undefined {
+    const at = this.withView(width, height, view, (orbit) => this.wasm.web_surface_point(orbit, x, y));
+    if (!at) return undefined;
+    const [px, py, pz, nx, ny, nz] = this.doubles(at, 6);
+    return { position: [px, py, pz], normal: [nx, ny, nz] };
+  }
+
+  /** Pixel position and depth of a point in a view. */
+  project(width: number, height: number, view: Orbit, point: [number, number, number]): { x: number; y: number; depth: number } {
+    const [x, y, depth] = this.doubles(this.withView(width, height, view, (orbit) => this.wasm.web_project(orbit, ...point)), 3);
+    return { x, y, depth };
+  }
+
+  private lens(): ObjectDescription["lens"] {
+    const [tanHalfX, tanHalfY] = this.doubles(this.wasm.web_lens(), 2);
+    return { tanHalfX, tanHalfY };
+  }
+
+  private withView(width: number, height: number, view: Orbit, call: (orbit: number) => number): number {
+    const orbit = this.copied(new Uint8Array(Float64Array.of(width, height, view.azimuth, view.elevation, view.distance).buffer));
+    const result = this.guarded(() => call(orbit));
+    this.wasm.web_free(orbit);
+    return result;
+  }
+
   /** Renders the view of given registers (web_core.cpp lists them). Returns the hashes of its pixels and depths. */
   hashesOf(registers: number[]): { rgba: string; depth: string } {
     const values = this.copied(new Uint8Array(Float64Array.from(registers).buffer));
@@ -283,7 +341,7 @@ export class Core {
   private describe(): ObjectDescription {
     const at = this.wasm.web_describe();
     const [width, height, photos, rings] = this.doubles(at, 4);
-    const description: ObjectDescription = { name: this.text(this.wasm.web_name()), width, height, photos, rings: [] };
+    const description: ObjectDescription = { name: this.text(this.wasm.web_name()), width, height, photos, rings: [], lens: this.lens() };
     for (let ring = 0; ring < rings; ++ring) {
       const [distance, targetHeight, elevation, azimuth] = this.doubles(at + 32 * (ring + 1), 4);
       description.rings.push({ distance, targetHeight, elevation, azimuth });

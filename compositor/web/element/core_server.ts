@@ -3,11 +3,13 @@
 import {
   type ByteRange,
   Core,
+  type Footprint,
   type NextRange,
   type ObjectTextures,
   type Orbit,
   type PhotoTexels,
   type StreamState,
+  type SurfacePoint,
   type ViewInputs,
 } from "./core.js";
 
@@ -21,9 +23,17 @@ export type Request =
   | { kind: "begin"; name: string; size: number }
   | { kind: "add"; offset: number; bytes: Uint8Array }
   | { kind: "finish"; size: number }
-  | { kind: "next"; width: number; height: number; view: Orbit; requested: ByteRange[] };
+  | { kind: "next"; width: number; height: number; view: Orbit; requested: ByteRange[] }
+  | GeometryRequest;
 
-export interface Result {
+/** Requests about the opened object's geometry. */
+export type GeometryRequest = { kind: "footprint" } | { kind: "surface"; width: number; height: number; view: Orbit; x: number; y: number };
+export interface GeometryAnswer {
+  footprint?: Footprint;
+  surface?: SurfacePoint;
+}
+
+export interface Result extends GeometryAnswer {
   pixels?: Uint8ClampedArray<ArrayBuffer>;
   textures?: ObjectTextures;
   photo?: PhotoTexels;
@@ -73,6 +83,10 @@ export class CoreServer {
         return {};
       case "add":
         return { state: core.addBytes(request.offset, request.bytes) };
+      case "footprint":
+        return { footprint: core.footprint() };
+      case "surface":
+        return { surface: core.surfacePoint(request.width, request.height, request.view, request.x, request.y) };
       case "finish":
         core.finishStream(request.size);
         return {};

@@ -3,6 +3,7 @@
 // same pixels, so that a change is not visible.
 
 import type { ByteRange, NextRange, ObjectTextures, Orbit, StreamState, ViewInputs } from "./core.js";
+import type { GeometryAnswer, GeometryRequest } from "./core_server.js";
 import { GlDevice, GlObject } from "./gl_device.js";
 import { CoreRenderer, type ViewRenderer } from "./view_renderer.js";
 
@@ -42,6 +43,10 @@ export class GlRenderer implements ViewRenderer {
     const state = await this.core.addBytes(offset, bytes);
     this.arriving = !state.complete;
     return state;
+  }
+
+  ask(request: GeometryRequest): Promise<GeometryAnswer> {
+    return this.core.ask(request);
   }
 
   finishStream(size: number): Promise<void> {

@@ -1,4 +1,4 @@
-// Moves a camera about an object by mouse, touch, wheel and keyboard, with inertia.
+// Moves a camera about an object by mouse, touch, wheel and keyboard, with inertia, and animates it to a goal.
 
 import type { Orbit } from "./core.js";
 
@@ -19,6 +19,8 @@ const kDoubleTap_ms = 350;
 const kDoubleTap_px = 24;
 const kInertia_ms = 180; // time constant
 const kSlowest = 0.02; // radians per second, below which motion ends
+const kArrived = 1e-3; // radians, and part of the distance, below which the goal is reached
+export const kDecay_ms = 100;
 
 /** Distance and middle of the pointers. */
 interface Grip {
@@ -30,8 +32,10 @@ interface Grip {
 export class OrbitControls {
   /** Called after each change; `byUser` is false for inertia. */
   onchange: (byUser: boolean) => void = () => {};
-  /** Inertia and animated double taps; off for visitors who prefer reduced motion. */
+  /** Inertia and animation; off for visitors who prefer reduced motion. */
   smooth = true;
+  /** Time constant of the animation to a goal. */
+  decay_ms = kDecay_ms;
   /** No zoom by wheel, pinch, double tap and keys. */
   fixedZoom = false;
   view: Orbit = { azimuth: 0, elevation: 0, distance: 1 };
@@ -40,6 +44,7 @@ export class OrbitControls {
 
   private readonly pointers = new Map<number, PointerEvent>();
   private readonly stop = new AbortController();
+  private goal?: Orbit;
   private grip?: Grip;
   private velocity = { azimuth: 0, elevation: 0 }; // radians per second
   private lastMove_ms = 0;
@@ -61,9 +66,9 @@ export class OrbitControls {
     this.stop.abort();
   }
 
-  /** True while a visitor holds the object or it moves on by inertia. */
+  /** True while a visitor holds the object, or it moves on by inertia or to a goal. */
   get moving(): boolean {
-    return this.pointers.size > 0 || this.velocity.azimuth !== 0 || this.velocity.elevation !== 0;
+    return this.pointers.size > 0 || this.goal !== undefined || this.velocity.azimuth !== 0 || this.velocity.elevation !== 0;
   }
 
   /** True while a visitor holds the object. */
@@ -72,14 +77,42 @@ export class OrbitControls {
   }
 
   clamp(): void {
-    const { view, limits } = this;
-    view.elevation = Math.min(Math.max(view.elevation, limits.lowestElevation), limits.highestElevation);
-    view.distance = Math.min(Math.max(view.distance, limits.nearest), limits.farthest);
+    for (const orbit of this.goal ? [this.view, this.goal] : [this.view]) {
+      const { limits } = this;
+      orbit.elevation = Math.min(Math.max(orbit.elevation, limits.lowestElevation), limits.highestElevation);
+      orbit.distance = Math.min(Math.max(orbit.distance, limits.nearest), limits.farthest);
+    }
   }
 
-  /** Advances inertia by a frame. */
+  /** Moves to a view, animated if motion is smooth, the shorter way around. */
+  moveTo(goal: Orbit, byUser: boolean): void {
+    this.halt();
+    this.goal = { ...goal };
+    this.clamp();
+    if (this.smooth) this.onchange(byUser);
+    else this.jumpToGoal(byUser);
+  }
+
+  /** Turns the side with a normal to the viewer. */
+  face([x, y, z]: [number, number, number]): void {
+    const level = Math.hypot(x, z);
+    const azimuth = level > 1e-6 ? Math.atan2(x, z) : this.view.azimuth;
+    const elevation = Math.abs(y) > level ? Math.atan2(y, level) : this.view.elevation;
+    this.moveTo({ ...this.view, azimuth, elevation }, true);
+  }
+
+  /** Ends an animation at its goal. */
+  jumpToGoal(byUser = false): void {
+    if (!this.goal) return;
+    this.view = this.goal;
+    this.goal = undefined;
+    this.onchange(byUser);
+  }
+
+  /** Advances inertia or the animation by a frame. */
   advance(elapsed_ms: number): void {
     if (this.held || !this.moving) return;
+    if (this.goal) return this.approach(this.goal, 1 - Math.exp(-elapsed_ms / Math.max(this.decay_ms, 1)));
     const elapsed_s = elapsed_ms / 1000;
     this.turn(this.velocity.azimuth * elapsed_s, this.velocity.elevation * elapsed_s, false);
     const rest = Math.exp(-elapsed_ms / kInertia_ms);
@@ -90,6 +123,19 @@ export class OrbitControls {
 
   private halt(): void {
     this.velocity = { azimuth: 0, elevation: 0 };
+    this.goal = undefined;
+  }
+
+  private approach(goal: Orbit, part: number): void {
+    const { view } = this;
+    const azimuth = shorterTurn(goal.azimuth - view.azimuth);
+    const elevation = goal.elevation - view.elevation;
+    const nearer = Math.log(goal.distance / view.distance);
+    if (Math.max(Math.abs(azimuth), Math.abs(elevation), Math.abs(nearer)) < kArrived) return this.jumpToGoal();
+    view.azimuth += part * azimuth;
+    view.elevation += part * elevation;
+    view.distance *= Math.exp(part * nearer);
+    this.onchange(false);
   }
 
   private turn(azimuth: number, elevation: number, byUser: boolean): void {
@@ -152,7 +198,9 @@ export class OrbitControls {
     this.lastTap = event;
     if (!last || event.timeStamp - last.timeStamp > kDoubleTap_ms || !near(last, event)) return;
     this.lastTap = undefined;
-    this.zoom(this.view.distance < 0.9 * this.home.distance ? this.home.distance / this.view.distance : kDoubleTapZoom);
+    if (this.fixedZoom) return;
+    const { view, home } = this;
+    this.moveTo({ ...view, distance: view.distance < 0.9 * home.distance ? home.distance : kDoubleTapZoom * view.distance }, true);
   }
 
   // An element without focus leaves the wheel to the page; a pinch on a touch pad comes with ctrlKey.
@@ -175,18 +223,17 @@ export class OrbitControls {
       PageDown: () => this.zoom(kZoomPerKey),
       "+": () => this.zoom(1 / kZoomPerKey),
       "-": () => this.zoom(kZoomPerKey),
-      Home: () => this.reset(),
+      Home: () => this.moveTo(this.home, true),
     };
     if (!(event.key in act)) return;
     event.preventDefault();
     this.halt();
     act[event.key]();
   }
+}
 
-  private reset(): void {
-    this.view = { ...this.home };
-    this.onchange(true);
-  }
+function shorterTurn(angle: number): number {
+  return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 }
 
 function near(a: PointerEvent | undefined, b: PointerEvent): boolean {

@@ -1,16 +1,21 @@
 // The custom element <ray-space>: shows a ray-space object (.rso) and lets visitors turn it. Attributes, methods and
 // events are named as those of <model-viewer>: docs/web.md.
 
-import { describeView, formatOrbit, parseAngle, parseOrbit } from "./camera_orbit.js";
+import { coreAddress } from "core-address";
+import { describeView, formatOrbit, parseAngle, parseDescriptions, parseOrbit, type SideDescriptions } from "./camera_orbit.js";
 import type { ObjectDescription, Orbit } from "./core.js";
 import { createRenderer, type RendererChoice } from "./gl_renderer.js";
+import { GroundShadow } from "./ground_shadow.js";
+import { type HotspotConfiguration, type HotspotData, Hotspots, type Vector, vector } from "./hotspots.js";
+import { InteractionPrompt } from "./interaction_prompt.js";
 import { fetchModule } from "./object_source.js";
 import { ObjectStream } from "./object_stream.js";
-import { OrbitControls } from "./orbit_controls.js";
+import { kDecay_ms, OrbitControls } from "./orbit_controls.js";
+import { Poster } from "./poster.js";
 import { template } from "./template.js";
+import { ViewProjection } from "./view_projection.js";
 import type { ViewRenderer } from "./view_renderer.js";
 
-const kScript = (document.currentScript as HTMLScriptElement | null)?.src;
 const kBeyondCaptured = (15 * Math.PI) / 180;
 const kSteepest = (80 * Math.PI) / 180;
 const kFrame_ms = 40; // aim for views in motion, which are rendered smaller where needed
@@ -21,13 +26,16 @@ const kMaxPixelRatio = 2;
 const kMaxPixels = 2_500_000;
 const kDefaultTurn = Math.PI / 16; // radians per second
 const kDefaultTurnDelay_ms = 3000;
+const kDefaultPromptDelay_ms = 3000;
+const kNear = "300px"; // distance to the visible part of the page at which an object is loaded
 
 export type CameraChangeSource = "user-interaction" | "none";
 
 export class RaySpaceElement extends HTMLElement {
   static observedAttributes = [
     "src", "alt", "poster", "camera-orbit", "min-camera-orbit", "max-camera-orbit", "camera-controls", "auto-rotate", "disable-zoom",
-    "touch-action", "renderer",
+    "touch-action", "renderer", "loading", "reveal", "shadow-intensity", "shadow-softness", "interaction-prompt",
+    "interpolation-decay", "a11y",
   ];
 
   private readonly root = this.attachShadow({ mode: "open" });
@@ -35,6 +43,17 @@ export class RaySpaceElement extends HTMLElement {
   private readonly controls: OrbitControls;
   private readonly stillMotion = matchMedia("(prefers-reduced-motion: reduce)");
   private readonly seen = new IntersectionObserver((entries) => this.showOnScreen(entries.at(-1)!.isIntersecting));
+  private readonly approached = new IntersectionObserver(
+    (entries) => {
+      this.near = entries.at(-1)!.isIntersecting;
+      this.loadIfNear();
+    },
+    { rootMargin: kNear },
+  );
+  private readonly hotspots: Hotspots;
+  private readonly shadow: GroundShadow;
+  private readonly prompt: InteractionPrompt;
+  private readonly poster: Poster;
   private readonly resized = new ResizeObserver(() => this.invalidate());
   private renderer?: ViewRenderer;
   private object?: ObjectDescription;
@@ -44,6 +63,11 @@ export class RaySpaceElement extends HTMLElement {
   private complete = false;
   private refresh = 0;
   private onScreen = false;
+  private near = false;
+  private waits = false; // for the page to be scrolled to the object before it is loaded
+  private shadowLook = { intensity: 0, softness: 1 };
+  private shadowSoftness = -1; // of the painted shadow; -1: not painted
+  private descriptions: SideDescriptions = {};
   private loop = 0;
   private lastFrame_ms = 0;
   private lastChange_ms = 0;
@@ -58,6 +82,14 @@ export class RaySpaceElement extends HTMLElement {
     this.stage = this.part_("stage");
     this.controls = new OrbitControls(this.stage);
     this.controls.onchange = (byUser) => this.changed(byUser ? "user-interaction" : "none");
+    const layer = this.root.querySelector<HTMLElement>(".hotspots")!;
+    this.hotspots = new Hotspots(this, layer);
+    this.hotspots.onfocusHidden = (normal) => {
+      if (this.object) this.controls.face(normal);
+    };
+    this.shadow = new GroundShadow(this.part_("ground-shadow") as HTMLCanvasElement);
+    this.prompt = new InteractionPrompt(this.part_("interaction-prompt"));
+    this.poster = new Poster(this, this.root.querySelector<HTMLElement>(".cover")!, [this.stage, layer]);
     this.part_("full-screen").addEventListener("click", () => this.toggleFullScreen());
     this.stillMotion.addEventListener("change", () => this.configure());
   }
@@ -98,25 +130,85 @@ export class RaySpaceElement extends HTMLElement {
 
   /** Returns to the first view. */
   resetTurntableRotation(): void {
-    this.controls.view = { ...this.controls.home };
-    this.changed("none");
+    this.controls.moveTo(this.controls.home, false);
   }
 
-  /** The view on screen as an image. */
+  /** The point that the camera looks at, in object radii. */
+  getCameraTarget(): Vector {
+    return vector([0, this.object?.rings[0].targetHeight ?? 0, 0]);
+  }
+
+  /** Ends the animation to a view at its goal. */
+  jumpCameraToGoal(): void {
+    this.controls.jumpToGoal();
+  }
+
+  /** The view on screen as an image, without shadow and hotspots. */
   toDataURL(type?: string, quality?: number): string {
     return this.renderer?.canvas.toDataURL(type, quality) ?? "data:,";
+  }
+
+  /** As toDataURL(), as a Blob. */
+  toBlob({ mimeType, qualityArgument }: { mimeType?: string; qualityArgument?: number } = {}): Promise<Blob> {
+    return new Promise((resolve, reject) => {
+      const done = (blob: Blob | null) => (blob ? resolve(blob) : reject(new Error("ray-space: there is no view yet; wait for load")));
+      if (this.renderer && this.object) this.renderer.canvas.toBlob(done, mimeType, qualityArgument);
+      else done(null);
+    });
+  }
+
+  /** True while the object is shown, not its poster. */
+  get modelIsVisible(): boolean {
+    return !this.poster.shown;
+  }
+
+  /** Shows the object instead of its poster, with reveal="manual". */
+  dismissPoster(): void {
+    this.poster.dismiss(this.shown);
+    this.revealed();
+  }
+
+  /** Shows the poster again, until dismissPoster(). */
+  showPoster(): void {
+    this.poster.show();
+    this.prompt.stop();
+  }
+
+  /** Moves a hotspot, or turns its normal. */
+  updateHotspot(configuration: HotspotConfiguration): void {
+    this.hotspots.update(configuration);
+  }
+
+  /** Place and visibility of the hotspot with a name, the value of `slot`; null if there is none. */
+  queryHotspot(name: string): HotspotData | null {
+    return this.hotspots.query(name);
+  }
+
+  /** Surface at a position in the window (clientX, clientY), in object radii; null beside the object. */
+  async positionAndNormalFromPoint(x: number, y: number): Promise<{ position: Vector; normal: Vector } | null> {
+    if (!this.renderer || !this.object) return null;
+    const box = this.stage.getBoundingClientRect();
+    const size = { width: Math.max(1, Math.round(box.width)), height: Math.max(1, Math.round(box.height)) };
+    const at = { x: ((x - box.left) / box.width) * size.width, y: ((y - box.top) / box.height) * size.height };
+    const { surface } = await this.renderer.ask({ kind: "surface", ...size, ...at, view: { ...this.controls.view } });
+    return surface ? { position: vector(surface.position), normal: vector(surface.normal) } : null;
   }
 
   connectedCallback(): void {
     this.seen.observe(this);
     this.resized.observe(this);
     document.addEventListener("visibilitychange", this.schedule);
+    this.hotspots.connect();
+    this.approached.observe(this);
     this.configure();
-    if (this.hasAttribute("src") && !this.loading) void this.load();
+    if (!this.loading) this.expect();
   }
 
   disconnectedCallback(): void {
     this.seen.disconnect();
+    this.approached.disconnect();
+    this.hotspots.disconnect();
+    this.near = false;
     this.resized.disconnect();
     document.removeEventListener("visibilitychange", this.schedule);
     this.unload();
@@ -124,11 +216,27 @@ export class RaySpaceElement extends HTMLElement {
 
   attributeChangedCallback(name: string, before: string | null, after: string | null): void {
     if (before === after) return;
-    if (name === "src" && this.isConnected) void this.load();
-    else if (name === "renderer" && this.isConnected && this.loading) void this.load();
+    if (name === "src" && this.isConnected) this.expect();
+    else if (name === "renderer" && this.isConnected && this.loading) this.expect();
     else if (name === "camera-orbit" && this.object) this.moveToAttribute();
     else if (name.endsWith("-camera-orbit") && this.object) this.limit();
     else this.configure();
+    if (name === "loading") this.loadIfNear();
+  }
+
+  // Begins with another `src`: now, or as soon as the page is scrolled to it.
+  private expect(): void {
+    this.unload();
+    this.waits = this.hasAttribute("src");
+    this.part_("message").textContent = "";
+    this.configure();
+    this.loadIfNear();
+  }
+
+  private loadIfNear(): void {
+    if (!this.waits || !this.isConnected || !(this.near || this.getAttribute("loading") === "eager")) return;
+    this.waits = false;
+    void this.load();
   }
 
   private part_(name: string): HTMLElement {
@@ -150,8 +258,39 @@ export class RaySpaceElement extends HTMLElement {
     const poster = this.part_("poster") as HTMLImageElement;
     const image = this.getAttribute("poster");
     if (image) poster.src = image;
-    poster.hidden = !image || this.shown;
+    poster.hidden = !image;
+    this.controls.decay_ms = this.number("interpolation-decay", kDecay_ms);
+    this.shadowLook = {
+      intensity: Math.min(this.number("shadow-intensity", 0), 1),
+      softness: Math.min(this.number("shadow-softness", 1), 1),
+    };
+    const descriptions = parseDescriptions(this.getAttribute("a11y") ?? "{}");
+    if (!descriptions) console.warn('ray-space: a11y is no JSON object of texts, such as {"front": "Front with the logo"}');
+    this.descriptions = descriptions ?? {};
+    this.root.querySelector(".hint")!.textContent = this.descriptions["interaction-prompt"] ?? "Drag to turn";
+    if (this.getAttribute("interaction-prompt") === "none" || !interactive) this.prompt.stop();
+    if (this.poster.shown && this.shown) this.poster.ready();
+    this.revealed();
     this.invalidate();
+  }
+
+  // A number of an attribute; the default if it is missing or wrong.
+  private number(name: string, preset: number): number {
+    const text = this.getAttribute(name);
+    const value = Number(text);
+    if (text === null) return preset;
+    if (text.trim() !== "" && value >= 0 && Number.isFinite(value)) return value;
+    console.warn(`ray-space: ${name} "${text}" is no number from 0`);
+    return preset;
+  }
+
+  // Begins to draw and to wait for the prompt, if the object is shown.
+  private revealed(): void {
+    if (this.poster.shown) return;
+    if (this.hasAttribute("camera-controls") && this.getAttribute("interaction-prompt") !== "none") {
+      this.prompt.start(this.number("interaction-prompt-threshold", kDefaultPromptDelay_ms));
+    }
+    this.schedule();
   }
 
   private unload(): void {
@@ -165,6 +304,11 @@ export class RaySpaceElement extends HTMLElement {
     this.complete = false;
     clearTimeout(this.refresh);
     this.refresh = 0;
+    this.waits = false;
+    this.shadowSoftness = -1;
+    this.shadow.clear();
+    this.prompt.stop();
+    this.poster.reset();
     cancelAnimationFrame(this.loop);
     this.loop = 0;
   }
@@ -188,7 +332,7 @@ export class RaySpaceElement extends HTMLElement {
       progress: (fraction) => this.progress(Math.min(fraction, 0.99)),
     });
     try {
-      const core = this.getAttribute("core") ?? new URL("ray-space.wasm", kScript ?? document.baseURI).href;
+      const core = this.getAttribute("core") ?? coreAddress;
       const [module] = await Promise.all([fetchModule(core, signal), stream.open()]);
       const renderer = await createRenderer(this.rendererChoice(), module);
       if (signal.aborted) return renderer.close();
@@ -199,9 +343,10 @@ export class RaySpaceElement extends HTMLElement {
       else await this.showFirst();
       if (signal.aborted) return;
       this.complete = true;
+      this.placeInView(this.controls.view);
       this.progress(1);
       this.dispatchEvent(new CustomEvent("load", { detail: { url: src } }));
-      this.schedule();
+      this.revealed();
     } catch (error) {
       if (!signal.aborted) this.fail(error, this.shown);
     }
@@ -221,9 +366,9 @@ export class RaySpaceElement extends HTMLElement {
     if (!renderer || this.renderer !== renderer) return;
     this.shown = true;
     this.stage.prepend(renderer.canvas);
-    this.part_("poster").hidden = true;
-    this.dispatchEvent(new CustomEvent("poster-dismissed"));
-    this.schedule();
+    this.placeInView(this.controls.view);
+    this.poster.ready();
+    this.revealed();
   }
 
   private refreshSoon(): void {
@@ -257,6 +402,7 @@ export class RaySpaceElement extends HTMLElement {
     const { azimuth, elevation, distance } = object.rings[0];
     this.captured = { azimuth, elevation, distance };
     this.moveToAttribute();
+    this.controls.jumpToGoal();
     this.controls.home = { ...this.controls.view };
   }
 
@@ -297,9 +443,7 @@ export class RaySpaceElement extends HTMLElement {
 
   private moveToAttribute(): void {
     this.setLimits();
-    this.controls.view = { ...this.orbitAttribute("camera-orbit", this.captured) };
-    this.controls.clamp();
-    this.changed("none");
+    this.controls.moveTo(this.orbitAttribute("camera-orbit", this.captured), false);
   }
 
   private changed(source: CameraChangeSource): void {
@@ -307,8 +451,9 @@ export class RaySpaceElement extends HTMLElement {
     this.lastChange_ms = now;
     if (source === "user-interaction") {
       this.lastUser_ms = now;
+      this.prompt.dismiss();
       const direction = this.part_("direction");
-      const text = describeView(this.controls.view, this.captured);
+      const text = describeView(this.controls.view, this.captured, this.descriptions);
       if (direction.textContent !== text) direction.textContent = text; // read aloud after each change
     }
     this.dispatchEvent(new CustomEvent("camera-change", { detail: { source } }));
@@ -327,7 +472,7 @@ export class RaySpaceElement extends HTMLElement {
 
   // Frames are requested only while the element is visible and something changes.
   private readonly schedule = (): void => {
-    if (this.loop || !this.shown || !this.onScreen || document.hidden) return;
+    if (this.loop || !this.shown || !this.onScreen || document.hidden || this.poster.shown) return;
     this.loop = requestAnimationFrame((now) => {
       this.loop = 0;
       void this.frame(now);
@@ -344,8 +489,10 @@ export class RaySpaceElement extends HTMLElement {
     const scale = waits || turns ? this.scale : 1;
     if (this.drawnScale < scale) {
       this.drawing = true;
+      const view = { ...this.controls.view };
       try {
         await this.draw(scale);
+        this.placeInView(view);
       } catch (error) {
         return this.fail(error);
       } finally {
@@ -357,7 +504,9 @@ export class RaySpaceElement extends HTMLElement {
 
   // Rotates the view slowly while no visitor does.
   private turnTable(now: number, elapsed_ms: number): boolean {
-    if (!this.hasAttribute("auto-rotate") || this.stillMotion.matches || this.controls.held) return false;
+    if (!this.hasAttribute("auto-rotate") || this.stillMotion.matches || this.controls.moving || this.hotspots.focused) {
+      return false;
+    }
     const delay = Number(this.getAttribute("auto-rotate-delay") ?? kDefaultTurnDelay_ms);
     if (now - this.lastUser_ms < delay) return false;
     const rate = parseAngle(this.getAttribute("rotation-per-second") ?? "") ?? kDefaultTurn;
@@ -365,6 +514,31 @@ export class RaySpaceElement extends HTMLElement {
     this.drawnScale = 0;
     this.dispatchEvent(new CustomEvent("camera-change", { detail: { source: "none" } }));
     return true;
+  }
+
+  // Moves hotspots and shadow into the view that has been drawn.
+  private placeInView(view: Orbit): void {
+    if (!this.object) return;
+    const { width, height } = getComputedStyle(this.stage); // not rounded, and before transforms of the page
+    const projection = new ViewProjection(view, this.object, Number.parseFloat(width), Number.parseFloat(height));
+    this.hotspots.place(projection);
+    const { intensity, softness } = this.shadowLook;
+    if (intensity > 0) void this.paintShadow(softness);
+    this.shadow.place(projection, intensity);
+  }
+
+  private async paintShadow(softness: number): Promise<void> {
+    if (softness === this.shadowSoftness || !this.renderer || !this.complete) return; // needs the shape maps
+    this.shadowSoftness = softness;
+    const { renderer } = this;
+    try {
+      const { footprint } = await renderer.ask({ kind: "footprint" });
+      if (renderer !== this.renderer) return;
+      this.shadow.paint(footprint!, softness);
+      this.invalidate();
+    } catch (error) {
+      console.warn("ray-space: the shadow cannot be computed:", error);
+    }
   }
 
   private async draw(scale: number): Promise<void> {

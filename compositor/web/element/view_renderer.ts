@@ -2,7 +2,7 @@
 
 import workerSource from "worker-source";
 import { type ByteRange, CoreError, type NextRange, type Orbit, type StreamState } from "./core.js";
-import { type Answer, CoreServer, type Request, type Result } from "./core_server.js";
+import { type Answer, CoreServer, type GeometryAnswer, type GeometryRequest, type Request, type Result } from "./core_server.js";
 
 export interface ViewRenderer {
   /** Canvas with the last view; the element places it. */
@@ -11,6 +11,8 @@ export interface ViewRenderer {
   readonly drawnBy: "core" | "webgl";
   /** Renders a view of the given size in pixels into the canvas. One call at a time. */
   render(width: number, height: number, view: Orbit): Promise<void>;
+  /** Answers a question about the object's geometry. */
+  ask(request: GeometryRequest): Promise<GeometryAnswer>;
   /** Ends the renderer and frees its memory. */
   close(): void;
 
@@ -89,6 +91,10 @@ export class CoreRenderer implements ViewRenderer {
     if (this.canvas.width !== width) this.canvas.width = width;
     if (this.canvas.height !== height) this.canvas.height = height;
     return this.context;
+  }
+
+  ask(request: GeometryRequest): Promise<GeometryAnswer> {
+    return this.send(request);
   }
 
   close(): void {

@@ -63,6 +63,8 @@ public:
     [[nodiscard]] const engine::Renderer& renderer() const { return renderer_; }
     [[nodiscard]] engine::Renderer& renderer() { return renderer_; }
     [[nodiscard]] const std::vector<CapturedCamera>& captured() const { return captured_; }
+    /// Camera of a view. Lengths in object radii.
+    [[nodiscard]] Camera camera_of(const OrbitView& view) const;
 
     /// Photos of the object, decoded on demand.
     [[nodiscard]] const engine::TexelStore& texels() const { return renderer_.texels(); }
@@ -79,7 +81,6 @@ public:
 
 private:
     explicit ObjectView(engine::Renderer renderer);
-    [[nodiscard]] Camera camera_of(const OrbitView& view) const;
 
     engine::Renderer renderer_;
     std::vector<CapturedCamera> captured_;  // [ring]
