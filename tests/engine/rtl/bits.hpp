@@ -157,9 +157,9 @@ inline Bits pack(const model::RgbaPixel& m) {
 inline Bits pack(const model::ImageWord& m) {
     return BitsWriter(m.kBits).put(static_cast<std::int64_t>(m.data), 64).put(m.head, 1).put(m.last_view, 1).bits();
 }
-// One bit: the number of an image buffer, or 0.
+// The number of an image buffer or of an object, or 0; its FIFO has as many bits as the number needs.
 inline Bits pack(const model::Done& m) {
-    return BitsWriter(m.kBits).put(m.number, 1).bits();
+    return BitsWriter(32).put(m.number, 32).bits();
 }
 inline Bits pack(const model::StartCommand& m) {
     return BitsWriter(m.kBits).put(static_cast<std::int64_t>(m.program), 1).bits();
