@@ -14,7 +14,9 @@ module fifo #(
 
     output logic out_valid,
     input  logic out_ready,
-    output logic [WIDTH-1:0] out_data
+    output logic [WIDTH-1:0] out_data,
+
+    output logic [$clog2(DEPTH+1)-1:0] count  // messages at the beginning of the cycle
 );
   localparam int PLACE_BITS = DEPTH > 1 ? $clog2(DEPTH) : 1;
   localparam int COUNT_BITS = $clog2(DEPTH + 1);
@@ -25,7 +27,6 @@ module fifo #(
 
   logic [WIDTH-1:0] places[0:DEPTH-1];
   logic [PLACE_BITS-1:0] head, tail;  // read and written next
-  logic [COUNT_BITS-1:0] count;
   logic push, pop;
   assign in_ready = count != FULL;
   assign out_valid = count != '0;

@@ -6,6 +6,7 @@ with # are comments. The output has two more ports: `mutant` selects a mutant (0
 """
 
 import pathlib
+import re
 import sys
 
 
@@ -29,11 +30,17 @@ def mutated(text, by_original, count, where):
             sys.exit(f"{where}: {original!r} occurs {text.count(original)} times in the module; it must occur once")
         choices = "".join(f"mutant == 8'd{n} ? ({replacement}) : " for n, replacement in mutants)
         text = text.replace(original, f"({choices}({original}))")
-    end_of_ports = "\n);\n"
-    if end_of_ports not in text:
-        sys.exit(f"{where}: the module has no line ');' behind its ports")
-    ports = ",\n    input  logic [7:0] mutant,\n    output logic [7:0] mutants\n);\n"
-    return text.replace(end_of_ports, f"{ports}  assign mutants = 8'd{count};\n", 1)
+    ports = re.search(r"^(module \w+|\)) \(\n", text, re.MULTILINE)
+    if not ports:
+        sys.exit(f"{where}: the module's ports do not begin behind a line that ends with ' ('")
+    end_of_ports = text.index("\n);\n", ports.end()) + len("\n);\n")
+    return (
+        text[: ports.end()]
+        + "    input  logic [7:0] mutant,\n    output logic [7:0] mutants,\n"
+        + text[ports.end() : end_of_ports]
+        + f"  assign mutants = 8'd{count};\n"
+        + text[end_of_ports:]
+    )
 
 
 def main():

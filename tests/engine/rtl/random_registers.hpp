@@ -17,10 +17,12 @@ inline model::ObjectRegisters random_object(Random& random) {
     object.planes = number(1, model::kMaxPlanes);
     object.x_cells = number(1, 1024);
     object.u_cells = number(1, 1024);
-    object.x_half_q20 = number(1, 1 << number(10, 22));
-    object.u_half_q28 = number(1, 1 << number(20, 29));
-    object.x_cells_per_unit_q12 = static_cast<std::int32_t>((std::int64_t{object.x_cells} << 31) / object.x_half_q20);
-    object.u_cells_per_unit_q12 = static_cast<std::int32_t>((std::int64_t{object.u_cells} << 39) / object.u_half_q28);
+    object.x_half_q20 = number(1 << 14, 1 << number(14, 21));
+    object.u_half_q28 = number(1 << 22, 1 << number(22, 29));
+    object.x_cells_per_unit_q12 = static_cast<std::int32_t>((std::int64_t{object.x_cells} << 31) / object.x_half_q20 +
+                                                            random.in(0, 1) * random.in(0, 4096));
+    object.u_cells_per_unit_q12 = static_cast<std::int32_t>((std::int64_t{object.u_cells} << 39) / object.u_half_q28 +
+                                                            random.in(0, 1) * random.in(0, 4096));
     object.luma_pitch = (object.height + 7) / 8;
     object.chroma_pitch = (half_size(object.height) + 3) / 4;
     object.alpha_pitch = (object.height + 31) / 32;
@@ -51,6 +53,10 @@ inline model::BoardView random_board_view(const model::RegisterFile& file, Rando
         plane.c_q20 = static_cast<std::int32_t>(random.of_any_length(29));
         ends(plane.n0_q32, plane.nx_q32);
         ends(plane.t0_q32, plane.tx_q32);
+        if (random.chance(0.2)) {  // near the limit of 2^24 in q28, below which there is no ray
+            plane.n0_q32 = -(std::int64_t{1} << 28) + random.in(-40, 40);
+            plane.nx_q32 = random.in(-20, 20);
+        }
     }
     return view;
 }
