@@ -145,7 +145,7 @@ private:
     std::uint64_t now_ = 0;
     std::size_t begun_ = 0, ended_ = 0, failed_ = 0;
     // Less deep than on the board, so that they are often full.
-    model::Fifo<model::MemoryWrite> words_{"load_words", 2, model::MemoryWrite::kBits};
+    model::Fifo<model::MemoryWrite> words_{"load_words", 1, model::MemoryWrite::kBits};
     model::Fifo<model::Done> loaded_{"object_loaded", 2, model::Done::kBits};
     model::Fifo<model::Done> object_ready_{"object_ready", 1, 5};
     model::DiskController block_{

@@ -12,7 +12,8 @@ namespace {
 model::RegisterFile registers_of_small_images(Random& random) {
     model::RegisterFile file = random_registers(random);
     for (const std::size_t buffer : {0U, 1U}) {
-        for (int& words : file.buffer_words[buffer]) words = static_cast<int>(random.in(1, 30));
+        for (int& words : file.buffer_words[buffer])
+            words = static_cast<int>(random.in(1, random.chance(0.5) ? 3 : 30));
     }
     return file;
 }
@@ -52,7 +53,7 @@ private:
     model::Fifo<model::MemoryWord> answers_{"host_words", 8, model::MemoryWord::kBits};
     model::CrossingFifo<model::ImageWord> words_{"image_words", 32, model::ImageWord::kBits};
     model::CrossingFifo<model::Done> transferred_{"transferred", 2, model::Done::kBits};
-    model::Fifo<model::Done> buffer_free_{"buffer_free", 2, model::Done::kBits};
+    model::Fifo<model::Done> buffer_free_{"buffer_free", 1, model::Done::kBits};
     model::HostDma block_{registers_,
                           {.images_ready = images_ready_,
                            .channels = {{&reads_, &answers_}},
