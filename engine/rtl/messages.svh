@@ -115,3 +115,47 @@ typedef struct packed {
   logic head;
   logic last_view;
 } image_word_t;
+
+// Block decompression: engine/model/signals/coded_messages.hpp.
+
+typedef struct packed {
+  logic [3:0] view;
+  logic first;
+  logic down;
+  logic [6:0] image;
+  logic [8:0] column;
+  logic [5:0] block_row;
+  logic [7:0] rows;
+} block_request_t;
+
+typedef struct packed {
+  logic [35:0] request;  // block_request_t
+  logic is_same;
+  logic is_high;
+} found_tile_t;
+
+typedef struct packed {
+  logic [35:0] request;
+  logic [1:0] kind;  // TILE_SAME, TILE_NOTHING, TILE_READ
+  logic [26:0] address;
+} requested_tile_t;
+
+typedef struct packed {
+  logic [35:0] request;
+  logic [2:0] class_number;
+  logic is_predicted_image;
+  logic [6:0] reference_0;
+  logic [6:0] reference_1;
+  logic [1:0] lane;  // half of the first byte's number in its word
+  logic [2:0] words;
+} requested_record_t;
+
+// A pixel before hop 0.
+typedef struct packed {
+  logic [3:0] view;
+  logic is_visible;
+  logic begins;
+  logic is_pending;
+  logic [8:0] row;
+  logic [2:0] column;
+} coded_pixel_t;

@@ -70,6 +70,19 @@ void add_tags(PackageText& package) {
     package.add("tag_luma", static_cast<int>(SampleTag::Kind::luma));
 }
 
+// Messages of block decompression, which prototype-2000 lacks.
+void add_coded_messages(PackageText& package) {
+    package.add("asks_bits", BlockRequest::kBits);
+    package.add("found_bits", FoundTile::kBits);
+    package.add("tiles_bits", RequestedTile::kBits);
+    package.add("asked_records_bits", RequestedRecord::kBits);
+    package.add("coded_pixels_bits", CodedPixel::bits(0));
+    package.add("tile_same", static_cast<int>(RequestedTile::Kind::same));
+    package.add("tile_nothing", static_cast<int>(RequestedTile::Kind::nothing));
+    package.add("tile_read", static_cast<int>(RequestedTile::Kind::read));
+    package.add("run_pixels", BlockScan::kMaxPixels);
+}
+
 void add_limits(PackageText& package, const BoardLimits& limits) {
     package.add("objects", limits.objects);
     package.add("object_bits", bits_of(limits.objects - 1));
@@ -135,6 +148,7 @@ Status write_constants(const std::string& config_name, const std::string& path) 
     add_fifos(package, top);
     add_latencies(package);
     add_tags(package);
+    add_coded_messages(package);
     add_limits(package, config.limits);
     add_memory(package, config.memory, top.registers);
     add_buses(package, config);

@@ -2,6 +2,7 @@
 // Bit vectors of RTL ports: messages of the model as packed structures of engine/rtl/messages.svh, and their transfer
 // from and to the ports of a verilated module.
 
+#include "engine/model/signals/coded_messages.hpp"
 #include "engine/model/signals/messages.hpp"
 #include "rayspace/api/types/check.hpp"
 
@@ -163,6 +164,51 @@ inline Bits pack(const model::Done& m) {
 }
 inline Bits pack(const model::StartCommand& m) {
     return BitsWriter(m.kBits).put(static_cast<std::int64_t>(m.program), 1).bits();
+}
+
+inline BitsWriter& put(BitsWriter& writer, const model::BlockRequest& m) {
+    return writer.put(m.view, 4)
+        .put(m.first, 1)
+        .put(m.down, 1)
+        .put(m.image, 7)
+        .put(m.column, 9)
+        .put(m.block_row, 6)
+        .put(m.rows, 8);
+}
+inline Bits pack(const model::BlockRequest& m) {
+    BitsWriter writer(m.kBits);
+    return put(writer, m).bits();
+}
+inline Bits pack(const model::FoundTile& m) {
+    BitsWriter writer(m.kBits);
+    return put(writer, m.request).put(m.same, 1).put(m.high, 1).bits();
+}
+inline Bits pack(const model::RequestedTile& m) {
+    BitsWriter writer(m.kBits);
+    return put(writer, m.request).put(static_cast<int>(m.kind), 2).put(m.address, 27).bits();
+}
+inline Bits pack(const model::RequestedRecord& m) {
+    BitsWriter writer(m.kBits);
+    return put(writer, m.request)
+        .put(m.class_number, 3)
+        .put(m.predicted_image, 1)
+        .put(m.references[0], 7)
+        .put(m.references[1], 7)
+        .put(m.lane / 2, 2)
+        .put(m.words, 3)
+        .bits();
+}
+// Before hop 0.
+inline Bits pack(const model::CodedPixel& m) {
+    RS_CHECK(m.hops == 0);
+    return BitsWriter(model::CodedPixel::bits(0))
+        .put(m.view, 4)
+        .put(m.is_visible, 1)
+        .put(m.begins, 1)
+        .put(m.pending, 1)
+        .put(m.row, 9)
+        .put(m.column, 3)
+        .bits();
 }
 
 /// Writes the low `width_bits` bits to a port.

@@ -77,7 +77,8 @@ private:
         for (std::int64_t n = random.in(1, 3); n > 0; --n) {
             model::MemorySegment& segment = segments->emplace_back();
             segment.address = static_cast<model::WordAddress>(random.in(0, (1 << 27) - 100));
-            for (std::int64_t word = random.in(1, random.chance(0.5) ? 4 : 60); word > 0; --word) segment.words.push_back(random.word());
+            for (std::int64_t word = random.in(1, random.chance(0.5) ? 4 : 60); word > 0; --word)
+                segment.words.push_back(random.word());
         }
         model::LoadJob job{static_cast<int>(random.in(0, 19)), random_object(random), std::move(segments)};
         jobs_.push_back(job);
