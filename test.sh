@@ -52,6 +52,7 @@ packages=("${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}")
 [ "$SANITIZE" = none ] || packages+=("${CLANG_PACKAGES[@]}")
 install_packages "${packages[@]}"
 (install_packages "${WEB_PACKAGES[@]}") || say "SKIPPED: the web part, whose packages cannot be installed"
+(install_packages "${RTL_PACKAGES[@]}") || say "SKIPPED: the RTL of the board, whose packages cannot be installed"
 
 say "Building (release), $JOBS jobs"
 configure build/release -DCMAKE_BUILD_TYPE=Release -DRAYSPACE_TESTS=ON -DRAYSPACE_BENCH=ON -DRAYSPACE_WARNINGS_AS_ERRORS=ON

@@ -10,6 +10,8 @@ BUILD_PACKAGES=(
 # shellcheck disable=SC2034
 WEB_PACKAGES=(emscripten nodejs chromium)  # optional
 command -v npm >/dev/null || WEB_PACKAGES+=(npm)  # nodejs of some sources contains it
+# shellcheck disable=SC2034
+RTL_PACKAGES=(verilator yosys iverilog nextpnr-ice40)  # optional
 # shellcheck disable=SC2034  # used by the scripts that source this file
 TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-14 shellcheck xvfb
   dpkg-dev pybind11-dev python3-dev python3-numpy python3-opencv snakemake doxygen help2man)

@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# synth.sh [BUILD]: synthesizes every module with Yosys, places and routes it for an iCE40 HX8K, and writes RESULTS.md.
+# BUILD (build/release) is a build folder whose target rtl_board_constants is up to date. Needs yosys and nextpnr-ice40;
+# takes about 20 minutes on one core. RAYSPACE_SYNTH_JOBS modules are processed at a time (1).
+set -euo pipefail
+
+build=$(realpath "${1:-build/release}")
+rtl=$(cd "$(dirname "$0")" && pwd)
+board=$build/tests/engine/rtl/board.sv
+out=$build/rtl_synth
+[ -f "$board" ] || { echo "synth.sh: $board is missing; build the target rtl_board_constants" >&2; exit 1; }
+mkdir -p "$out"
+cd "$rtl"
+
+# synthesize MODULE: writes $out/MODULE.row, a row of the table.
+synthesize() {
+  local module=$1 sources luts frequency
+  mapfile -t sources < <(find . -name '*.sv' | sort)
+  local read="read_verilog -sv $board ${sources[*]}"
+
+  yosys -q -w "Replacing memory" -p "$read; hierarchy -top $module; proc; write_json $out/$module.ports.json"
+  yosys -q -w "Replacing memory" -p "$read; synth -flatten -top $module; abc -lut 4; tee -o $out/$module.lut.txt stat"
+  yosys -q -w "Replacing memory" -p "$read; synth_ice40 -top $module; tee -o $out/$module.ice40.txt stat"
+  luts=$(awk '$1 == "$lut" { print $2 }' "$out/$module.lut.txt")
+  cells() { awk -v kind="$1" '$1 ~ kind { sum += $2 } END { print sum + 0 }' "$out/$module.ice40.txt"; }
+
+  # The pins of the chip are fewer than the bits of the ports: shift registers lead to them.
+  python3 pins.py "$out/$module.ports.json" "$module" >"$out/${module}_pins.v"
+  yosys -q -w "Replacing memory" -p "$read $out/${module}_pins.v; synth_ice40 -top ${module}_pins -json $out/$module.json"
+  if nextpnr-ice40 --hx8k --package ct256 --json "$out/$module.json" --seed 1 --freq 40 --pcf-allow-unconstrained \
+    --log "$out/$module.nextpnr.log" --quiet 2>/dev/null; then
+    frequency=$(sed -n "s/.*Max frequency for clock.*: \([0-9.]*\) MHz.*/\1/p" "$out/$module.nextpnr.log" | tail -n 1)
+  else
+    frequency="does not fit"
+  fi
+  echo "| $module | ${luts:-0} | $(cells '^SB_LUT4$') | $(cells '^SB_CARRY$') | $(cells '^SB_DFF') | $(cells '^SB_RAM') | $frequency |" >"$out/$module.row"
+  cat "$out/$module.row"
+}
+
+if [ "${2:-}" = --module ]; then  # called by itself
+  synthesize "$3"
+  exit
+fi
+
+rm -f "$out"/*.row
+find . -name '*.sv' -printf '%f\n' | sed 's/\.sv$//' | sort |
+  xargs -P "${RAYSPACE_SYNTH_JOBS:-1}" -I{} "$rtl/$(basename "$0")" "$build" --module {}
+
+{
+  cat <<'HEAD'
+# Synthesis of the RTL
+
+Written by `engine/rtl/synth.sh`. Each module alone, with the constants of `prototype-2000`. "LUT4" is a generic mapping (`synth; abc -lut 4`), comparable to the logic cells of four inputs of the
+board's FPGA; LUTs, carry cells, flip-flops and block RAMs are those of an iCE40 HX8K (`synth_ice40`; it has 7680 cells). The frequency is that of the routed module, with shift registers between its ports
+and the pins. The board's clock is 40 MHz.
+
+| module | LUT4 | iCE40 LUTs | carries | flip-flops | block RAMs | MHz on HX8K |
+|---|---|---|---|---|---|---|
+HEAD
+  cat "$out"/*.row
+  printf '\n%s; %s.\n' "$(yosys -V)" "$(nextpnr-ice40 --version 2>&1 | sed 's/^nextpnr-ice40 -- //')"
+} >"$out/RESULTS.md"
+cp "$out/RESULTS.md" RESULTS.md

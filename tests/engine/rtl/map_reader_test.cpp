@@ -1,0 +1,51 @@
+#include "engine/model/blocks/shared/map_reader.hpp"
+#include "tests/engine/rtl/cosimulation.hpp"
+
+#include <Vmap_reader.h>
+#include <Vmap_reader_mutants.h>
+
+namespace rs::engine::rtl {
+namespace {
+
+template <class Module>
+class MapReaderBench final : public Bench<Module> {
+public:
+    MapReaderBench(Module& module, Random& random) : Bench<Module>(module, random) {
+        this->input(points_, RS_RTL_PORTS(module, points), [this] { return point(); });
+        this->output(map_reads_, RS_RTL_PORTS(module, map_reads), [this](const model::MemoryRead&) { ++requested_; });
+        this->input(
+            map_words_, RS_RTL_PORTS(module, map_words), [this] { return word(); }, [this] { return requested_ > 0; });
+        this->output(mapped_, RS_RTL_PORTS(module, mapped));
+    }
+
+private:
+    model::RayPoint point() {
+        Random& random = this->random_;
+        model::RayPoint point;
+        point.view = static_cast<int>(random.in(0, 14));
+        point.has_ray = random.chance(0.8);
+        point.plane = static_cast<int>(random.in(0, 11));
+        point.x_q20 = random.of_any_length(23);
+        point.lambda_q20 = random.in(0, (1 << 29) - 1);
+        point.cell_byte = static_cast<std::uint64_t>(random.in(0, (1 << 30) - 1));
+        return point;
+    }
+    model::MemoryWord word() {
+        --requested_;
+        const std::uint64_t word = this->random_.word();
+        return {this->random_.chance(0.3) ? word | 0xFF'FF'FF'FF'FFU : word};
+    }
+    model::Block& block() override { return block_; }
+
+    int requested_ = 0;
+    model::Fifo<model::RayPoint> points_{"points", 2, model::RayPoint::kBits};
+    model::Fifo<model::MemoryRead> map_reads_{"map_reads", 2, model::MemoryRead::kBits};
+    model::Fifo<model::MemoryWord> map_words_{"map_words", 2, model::MemoryWord::kBits};
+    model::Fifo<model::MappedRay> mapped_{"mapped", 2, model::MappedRay::kBits};
+    model::MapReader block_{{.in = points_, .requests = map_reads_, .answers = map_words_, .out = mapped_}};
+};
+
+RS_RTL_TESTS(RtlMapReader, MapReaderBench, map_reader)
+
+}  // namespace
+}  // namespace rs::engine::rtl
