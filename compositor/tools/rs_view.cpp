@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
     add_sequence_command(app, run);
     add_probe_command(app, run);
     add_lights_command(app, run);
+    add_export_command(app, run);
     add_page_command(app, run);
     add_tile_command(app, run);
     std::vector<char*> arguments(argv, argv + argc);
