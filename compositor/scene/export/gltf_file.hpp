@@ -6,8 +6,8 @@
 // For pages of rs-view, extras hold what else the scene states:
 //   scene   RaySpaceScene {background {sky, skyAngles, ground, groundAngles}, fog {kind, colour, visibility},
 //           navigation {types, speed, headlight, eyeHeight}}; colours are linear light
-//   light   RaySpaceLight {ambient, everywhere, leastAttenuation}: its ambient part; false if it lights only nodes that
-//           list it; the largest share of its intensity that reaches a near surface is 1 / leastAttenuation
+//   light   RaySpaceLight {ambient, everywhere, castsShadows, leastAttenuation}: its ambient part; `everywhere` is
+//           false if it lights only nodes that list it; near surfaces get at most intensity / leastAttenuation
 //   node    RaySpaceLights [...]: indices of such lights
 
 #include "compositor/scene/scene.hpp"

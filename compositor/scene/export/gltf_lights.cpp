@@ -61,7 +61,9 @@ GltfLight gltf_light(const Light& given, double reach) {
         const double inner = std::clamp(light.beam_width_rad, 0.0, outer * 0.999);
         made.light["spot"] = {{"innerConeAngle", inner}, {"outerConeAngle", outer}};
     }
-    json extras = {{"ambient", {light.ambient.r, light.ambient.g, light.ambient.b}}, {"everywhere", light.everywhere}};
+    json extras = {{"ambient", {light.ambient.r, light.ambient.g, light.ambient.b}},
+                   {"everywhere", light.everywhere},
+                   {"castsShadows", light.casts_shadows}};
     const bool inverse_square = light.attenuation.x == 0 && light.attenuation.y == 0 && light.attenuation.z > 0;
     if (!distant) extras["leastAttenuation"] = inverse_square ? light.least_attenuation / light.attenuation.z : 1;
     made.light["extras"]["RaySpaceLight"] = std::move(extras);

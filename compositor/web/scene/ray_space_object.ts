@@ -3,6 +3,7 @@
 // it was captured.
 
 import * as three from "three";
+import { cornersOf, kQuadIndices, onAxis, shadowCaster } from "./object_shadow.js";
 import type { ObjectBounds, SceneView } from "./scene_core.js";
 import type { OpenObject } from "./scene_workers.js";
 
@@ -10,6 +11,8 @@ const kRerender_px = 0.8; // parallax within the object since its image was rend
 const kRerenderZoom = 1.04;
 const kMaxPixels = 1_000_000;
 const kMaxPixelsInMotion = 200_000;
+const kLightDistance = 30; // of lights that cast shadows, object radii
+const kShadowSide_px = 256;
 const kHides = 0.5; // pixels of at least this alpha write depth
 
 const kVertex = `
@@ -126,7 +129,7 @@ export class RaySpaceObject3D extends three.Object3D {
     private readonly standing = true,
   ) {
     super();
-    this.geometry.setIndex([0, 1, 2, 2, 1, 3]);
+    this.geometry.setIndex(kQuadIndices);
     this.geometry.setAttribute("position", this.corners);
     this.geometry.setAttribute("screen", this.places);
     // Pixels at edges do not hide what is behind them.
@@ -182,6 +185,20 @@ export class RaySpaceObject3D extends three.Object3D {
     if (!this.isOutdated(focal, moving) || !this.isInView(camera)) return this.rendering;
     if (!this.rendering) void this.render(focal, moving ? kMaxPixelsInMotion : kMaxPixels);
     return true;
+  }
+
+  /**
+   * The object's shadow in the light of a direction, as a mesh in world coordinates that casts it.
+   * @param towards direction of travel of the light, unit length
+   */
+  async shadowFrom(towards: three.Vector3): Promise<three.Mesh | undefined> {
+    const { center, radius } = this.sphere();
+    const distance = kLightDistance * radius;
+    const { x, y, z } = center.clone().addScaledVector(towards, -distance);
+    const focal = (kShadowSide_px / 2) * kLightDistance;
+    const { elements: matrix } = this.matrixWorld.clone();
+    const view = await this.opened.render({ matrix, standing: this.standing, eye: [x, y, z], focal, maxPixels: kMaxPixels });
+    return view && shadowCaster(view, towards.clone().multiplyScalar(-radius));
   }
 
   override raycast(raycaster: three.Raycaster, hits: three.Intersection[]): void {
@@ -276,16 +293,10 @@ export class RaySpaceObject3D extends three.Object3D {
 
   // The quad is the screen rectangle at the depth of the object's axis.
   private placeQuad(view: SceneView): void {
-    const [x, y, width, height] = view.rectangle;
-    const { eye, rays } = this.uniforms;
-    const middle = new three.Vector3(x + width / 2, y + height / 2, 1);
-    const inverseDepth = this.uniforms.facing.value.dot(middle);
-    const depth = inverseDepth > 0 ? 1 / inverseDepth : view.distance;
-    const corners = [[x, y], [x, y + height], [x + width, y], [x + width, y + height]];
-    for (const [n, [u, v]] of corners.entries()) {
-      const corner = new three.Vector3(u, v, 1).applyMatrix3(rays.value).multiplyScalar(depth).add(eye.value);
+    for (const [n, [x, y]] of cornersOf(view).entries()) {
+      const corner = onAxis(view, x, y);
       this.corners.setXYZ(n, corner.x, corner.y, corner.z);
-      this.places.setXY(n, u, v);
+      this.places.setXY(n, x, y);
     }
     this.corners.needsUpdate = true;
     this.places.needsUpdate = true;

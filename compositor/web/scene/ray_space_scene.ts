@@ -6,7 +6,7 @@ import { CoreError } from "../element/core.js";
 import { fetchFile, fetchModule, fileName } from "../element/object_source.js";
 import { RaySpaceObject3D } from "./ray_space_object.js";
 import { fogTransmittance, readScene, type SceneFile, type Viewpoint } from "./scene_file.js";
-import { kObjectLayer, kSkyLayer } from "./scene_lights.js";
+import { directionOf, groupAround, kObjectLayer, kSkyLayer } from "./scene_lights.js";
 import { type OpenObject, SceneWorkers } from "./scene_workers.js";
 import { template } from "./template.js";
 import { visitorAt, sightOf, type Visitor, WalkControls } from "./walk_controls.js";
@@ -46,6 +46,7 @@ export class RaySpaceSceneElement extends HTMLElement {
   private loop = 0;
   private lastFrame_ms = 0;
   private lastChange_ms = 0;
+  private complete = false;
   private shadowsReady = false;
   private outdated = true;
 
@@ -65,7 +66,7 @@ export class RaySpaceSceneElement extends HTMLElement {
 
   /** True after the `load` event. */
   get loaded(): boolean {
-    return this.file !== undefined && this.objects.every(({ object }) => object.parent !== null);
+    return this.complete;
   }
 
   /** True if the frame on screen shows everything at full resolution. For tests. */
@@ -163,6 +164,7 @@ export class RaySpaceSceneElement extends HTMLElement {
       this.begin(file);
       await this.openObjects(file, module, signal);
       if (signal.aborted) return;
+      this.complete = true;
       this.progress(1);
       this.dispatchEvent(new CustomEvent("load", { detail: { url: this.src } }));
     } catch (error) {
@@ -228,6 +230,8 @@ export class RaySpaceSceneElement extends HTMLElement {
           object.onfailure = (error) => this.note(messageOf(error));
           node.add(object);
           this.objects.push({ object, name: description });
+          object.updateWorldMatrix(true, false);
+          await this.castShadow(file, object);
         } catch (error) {
           if (!failures.includes(messageOf(error))) failures.push(messageOf(error));
         }
@@ -242,6 +246,17 @@ export class RaySpaceSceneElement extends HTMLElement {
     list.parentElement!.hidden = names.length === 0;
   }
 
+  private async castShadow(file: SceneFile, object: RaySpaceObject3D): Promise<void> {
+    const group = groupAround(file.groups, object.sphere().center);
+    for (const sun of group?.suns ?? []) {
+      const caster = await object.shadowFrom(directionOf(sun));
+      if (!caster || this.file !== file) return;
+      caster.layers.set(group!.opaque);
+      file.scene.add(caster);
+    }
+    this.shadowsReady = false;
+  }
+
   private unload(): void {
     this.loading?.abort();
     cancelAnimationFrame(this.loop);
@@ -252,6 +267,7 @@ export class RaySpaceSceneElement extends HTMLElement {
     this.renderer?.domElement.remove();
     this.renderer?.dispose();
     this.renderer = this.file = this.workers = undefined;
+    this.complete = false;
   }
 
   private fail(error: unknown): void {

@@ -84,7 +84,7 @@ export async function readScene(glb: ArrayBuffer, name: string): Promise<SceneFi
     box,
   };
   if (file.fog) scene.fog = fogOf(file.fog);
-  if (surroundings.background) file.sky = skyOf(surroundings.background);
+  if (surroundings.background) scene.add((file.sky = skyOf(surroundings.background)));
   return file;
 }
 

@@ -8,18 +8,24 @@ interface LightExtras {
   ambient?: number[];
   everywhere?: boolean;
   leastAttenuation?: number;
+  castsShadows?: boolean;
 }
 
 /** Nodes with the same lights. Its layers hold nodes that hide others, and nodes that are blended over them. */
 export interface LightGroup {
   opaque: number;
   blended: number;
+  /** Bounds of the nodes that hide others. */
+  box: three.Box3;
+  /** Lights that cast shadows. */
+  suns: three.DirectionalLight[];
 }
 
 export const kObjectLayer = 1; // ray-space objects
 export const kSkyLayer = 2;
 const kFirstGroupLayer = 3;
 const kMostGroups = 14; // of 32 layers
+const kMostShadows = 1; // per group
 const kShadowMap_px = 2048;
 
 // Attenuation of VRML97: none beyond the radius, at most the light's own strength near it.
@@ -35,8 +41,8 @@ function isBlended(mesh: three.Mesh): boolean {
 }
 
 /**
- * Assigns layers to lights and meshes, adds ambient lights, and lets the strongest directional light of each group cast
- * shadows.
+ * Assigns layers to lights and meshes, adds ambient lights, and lets the strongest directional lights of each group
+ * cast shadows.
  * @param lights in the order of the file
  */
 export function groupByLights(scene: three.Object3D, lights: three.Light[]): LightGroup[] {
@@ -55,7 +61,7 @@ export function groupByLights(scene: three.Object3D, lights: three.Light[]): Lig
     const key = members.join();
     if (!groups.has(key)) {
       const layer = kFirstGroupLayer + 2 * Math.min(groups.size, kMostGroups - 1);
-      groups.set(key, { group: { opaque: layer, blended: layer + 1 }, members, meshes: [] });
+      groups.set(key, { group: { opaque: layer, blended: layer + 1, box: new three.Box3(), suns: [] }, members, meshes: [] });
     }
     const { group, meshes } = groups.get(key)!;
     mesh.layers.set(isBlended(mesh) ? group.blended : group.opaque);
@@ -64,7 +70,7 @@ export function groupByLights(scene: three.Object3D, lights: three.Light[]): Lig
   for (const light of lights) light.layers.disableAll();
   for (const { group, members, meshes } of groups.values()) {
     addGroupLights(scene, group, members.map((n) => lights[n]), members.map((n) => extras[n]));
-    castShadows(scene, group, members.map((n) => lights[n]), meshes);
+    castShadows(scene, group, members.filter((n) => extras[n].castsShadows !== false).map((n) => lights[n]), meshes);
   }
   return [...groups.values()].map(({ group }) => group);
 }
@@ -86,33 +92,48 @@ function addGroupLights(scene: three.Object3D, group: LightGroup, lights: three.
 
 function castShadows(scene: three.Object3D, group: LightGroup, lights: three.Light[], meshes: three.Mesh[]): void {
   const strength = (light: three.Light) => light.intensity * (light.color.r + light.color.g + light.color.b);
+  for (const mesh of meshes) {
+    if (mesh.layers.mask === 1 << group.opaque) group.box.expandByObject(mesh);
+  }
   const suns = lights.filter((light) => light instanceof three.DirectionalLight && light.layers.mask === layersOf(group));
-  const sun = suns.sort((a, b) => strength(b) - strength(a))[0] as three.DirectionalLight | undefined;
-  if (!sun) return;
-  const box = new three.Box3();
+  group.suns = (suns as three.DirectionalLight[]).sort((a, b) => strength(b) - strength(a)).slice(0, kMostShadows);
+  if (group.box.isEmpty()) return;
   for (const mesh of meshes) {
     if (mesh.layers.mask !== 1 << group.opaque) continue;
-    box.expandByObject(mesh);
     mesh.castShadow = mesh.receiveShadow = true;
     // Walls and ceilings with one side let light in from behind.
     for (const material of [mesh.material].flat()) material.shadowSide = material.side;
   }
-  if (box.isEmpty()) return;
-  const sphere = box.getBoundingSphere(new three.Sphere());
-  const towards = sun.target.getWorldPosition(new three.Vector3()).sub(sun.getWorldPosition(new three.Vector3())).normalize();
+  const sphere = group.box.getBoundingSphere(new three.Sphere());
+  for (const sun of group.suns) coverWithShadows(scene, sun, sphere);
+}
+
+function coverWithShadows(scene: three.Object3D, sun: three.DirectionalLight, { center, radius }: three.Sphere): void {
+  const towards = directionOf(sun);
   scene.add(sun, sun.target);
   sun.quaternion.identity();
-  sun.position.copy(sphere.center).addScaledVector(towards, -sphere.radius);
-  sun.target.position.copy(sphere.center);
+  sun.position.copy(center).addScaledVector(towards, -radius);
+  sun.target.position.copy(center);
   sun.castShadow = true;
   const { camera } = sun.shadow;
-  camera.left = camera.bottom = -sphere.radius;
-  camera.right = camera.top = sphere.radius;
+  camera.left = camera.bottom = -radius;
+  camera.right = camera.top = radius;
   camera.near = 0;
-  camera.far = 2 * sphere.radius;
+  camera.far = 2 * radius;
   sun.shadow.mapSize.set(kShadowMap_px, kShadowMap_px);
-  sun.shadow.normalBias = (2 * sphere.radius) / kShadowMap_px;
+  sun.shadow.normalBias = (2 * radius) / kShadowMap_px;
   sun.shadow.bias = -0.0005;
+}
+
+/** Direction of travel, unit length. */
+export function directionOf(light: three.DirectionalLight): three.Vector3 {
+  return light.target.getWorldPosition(new three.Vector3()).sub(light.getWorldPosition(new three.Vector3())).normalize();
+}
+
+/** The smallest group around a point; undefined if there is none. */
+export function groupAround(groups: LightGroup[], point: three.Vector3): LightGroup | undefined {
+  const volume = ({ box }: LightGroup) => box.getSize(new three.Vector3()).toArray().reduce((product, side) => product * side, 1);
+  return groups.filter(({ box }) => box.containsPoint(point)).sort((a, b) => volume(a) - volume(b))[0];
 }
 
 function layersOf(group: LightGroup): number {
