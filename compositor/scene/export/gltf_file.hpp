@@ -9,6 +9,7 @@
 //   light   RaySpaceLight {ambient, everywhere, castsShadows, leastAttenuation}: its ambient part; `everywhere` is
 //           false if it lights only nodes that list it; near surfaces get at most intensity / leastAttenuation
 //   node    RaySpaceLights [...]: indices of such lights
+//   material  RaySpaceMaterial {matt}: true if it has no highlights
 
 #include "compositor/scene/scene.hpp"
 #include "rayspace/base/result.hpp"

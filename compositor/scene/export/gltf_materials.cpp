@@ -126,7 +126,7 @@ Result<json> GltfMaterials::convert(const Material& material, bool coloured) {
     }
     const bool matt =
         material.surface ? material.surface->kind == rs::SurfaceKind::diffuse : material.specular == glm::vec3(0);
-    if (matt) add_extension("KHR_materials_specular", {{"specularFactor", 0}});
+    if (matt) made["extras"]["RaySpaceMaterial"] = {{"matt", true}};
     if (material.normals) {
         RS_ASSIGN_OR_RETURN(const std::size_t texture, normals_of(*material.normals));
         made["normalTexture"] = {{"index", texture}};

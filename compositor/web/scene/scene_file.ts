@@ -117,20 +117,37 @@ function objectsOf(root: three.Object3D): ObjectNode[] {
   return objects;
 }
 
-// Glass is blended, as by the desktop's raster renderer; transmission would need another pass.
+// Glass is blended, as by the desktop's raster renderer; transmission would need another pass. Materials without highlights
+// are simpler to shade.
 function prepareMaterials(root: three.Object3D): void {
-  const materials = new Set<three.Material>();
-  root.traverse((node) => [(node as three.Mesh).material ?? []].flat().forEach((material) => materials.add(material)));
-  for (const material of materials) {
+  const matt = new Map<three.Material, three.Material>();
+  const prepared = (material: three.Material): three.Material => {
+    if (!(material instanceof three.MeshStandardMaterial)) return material;
+    if (matt.has(material)) return matt.get(material)!;
+    const result = material.userData.RaySpaceMaterial?.matt ? mattOf(material) : material;
+    matt.set(material, result);
     if (material instanceof three.MeshPhysicalMaterial && material.transmission > 0) {
       material.transmission = 0;
       material.transparent = true;
       material.opacity = Math.min(material.opacity, 0.25);
       material.depthWrite = false;
     }
-    // Without surroundings to reflect, metals would be black.
-    if (material instanceof three.MeshStandardMaterial) material.metalness *= 0.5;
-  }
+    material.metalness *= 0.5; // without surroundings to reflect, metals would be black
+    return result;
+  };
+  root.traverse((node) => {
+    const { material } = node as three.Mesh;
+    if (material) (node as three.Mesh).material = Array.isArray(material) ? material.map(prepared) : prepared(material);
+  });
+}
+
+function mattOf(material: three.MeshStandardMaterial): three.MeshLambertMaterial {
+  const { name, color, map, emissive, emissiveMap, emissiveIntensity, normalMap, normalScale } = material;
+  const { side, transparent, opacity, alphaTest, depthWrite, vertexColors, flatShading } = material;
+  return new three.MeshLambertMaterial({
+    name, color, map, emissive, emissiveMap, emissiveIntensity, normalMap, normalScale, side, transparent, opacity, alphaTest, depthWrite,
+    vertexColors, flatShading,
+  });
 }
 
 // Sphere around the camera with the gradients of ISO/IEC 14772-1, 6.5.
