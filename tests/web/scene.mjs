@@ -209,13 +209,11 @@ const tests = {
   async followsTheWindowSize() {
     const page = await openLoaded(onDisk());
     await page.setViewportSize({ width: 300, height: 500 });
-    await page.waitForTimeout(300);
-    await settled(page);
-    const size = await page.evaluate(() => {
+    await page.waitForFunction(() => {
       const { width, height } = document.querySelector("ray-space-scene").shadowRoot.querySelector("canvas");
-      return [width, height];
+      return width === 300 && height === 500;
     });
-    assert.deepEqual(size, [300, 500]);
+    await settled(page);
   },
 
   async sitesStateWhatIsMissing() {
