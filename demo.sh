@@ -114,6 +114,8 @@ show_room() {
     --lights "$world/evening.json" --exposure 3 --renderer radiosity --passes 4 --size 800x450 -o "$OUT/showroom-evening.png"
   step "showroom: quilt" "$OUT/showroom_qs5x9a0.75.png" "$BIN/rs-view" quilt "$world/showroom.wrl" --viewpoint table --layout 5x9 \
     -o "$OUT/showroom.png"
+  [ ! -f build/release/compositor/web/scene.js ] ||
+    step "showroom: web page" "$OUT/showroom.html" "$BIN/rs-view" page "$world/showroom.wrl" -o "$OUT/showroom.html"
   step "showroom: walk" "$OUT/showroom-walk.mp4" "$BIN/rs-view" render "$world/showroom.wrl" \
     --path "$world/showroom-walk.json" --size "$WALK_SIZE" --upright -o "$OUT/showroom-walk.mp4"
 }

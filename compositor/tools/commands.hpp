@@ -24,7 +24,9 @@ void add_sequence_command(CLI::App& app, std::function<Status()>& run);
 void add_probe_command(CLI::App& app, std::function<Status()>& run);
 /// `lights`: the lights of a scene as a JSON list.
 void add_lights_command(CLI::App& app, std::function<Status()>& run);
-/// `page`: an object as a web page.
+/// `export`: a scene as binary glTF.
+void add_export_command(CLI::App& app, std::function<Status()>& run);
+/// `page`: an object or a scene as a web page.
 void add_page_command(CLI::App& app, std::function<Status()>& run);
 /// `tile`: plans, traces and assembles frames in tiles, for rendering on several machines.
 void add_tile_command(CLI::App& app, std::function<Status()>& run);

@@ -34,7 +34,8 @@ int main(int argc, char** argv) {
         "  rs-view walls hall.wrl --display cave --heads udp:0.0.0.0:4242\n"
         "  rs-view quilt hall.wrl --layout 5x9 -o hall.png\n"
         "  rs-view sequence maps/street --weather rain -o street.mp4\n"
-        "  rs-view page vase.rso -o vase.html");
+        "  rs-view page vase.rso -o vase.html\n"
+        "  rs-view page museum.wrl -o museum.html");
     std::function<rs::Status()> run;
     add_open_command(app, run);
     add_render_command(app, run);
@@ -43,6 +44,7 @@ int main(int argc, char** argv) {
     add_sequence_command(app, run);
     add_probe_command(app, run);
     add_lights_command(app, run);
+    add_export_command(app, run);
     add_page_command(app, run);
     add_tile_command(app, run);
     std::vector<char*> arguments(argv, argv + argc);

@@ -1,4 +1,5 @@
-// rs-view page: an object as a web page. tests/web opens such pages in a browser.
+// rs-view page: an object or a scene as a web page. tests/web opens such pages in a browser. rs-view export: scenes as
+// glTF.
 
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
@@ -67,6 +68,55 @@ TEST_F(Page, SitesHaveTheFilesOfAServer) {
     std::ofstream(work_ / "site" / "notes.txt") << "mine";
     EXPECT_EQ(page({in("a shoe.rso"), "--site", in("site")}).exit_code, 1);
     EXPECT_EQ(page({in("a shoe.rso"), "--site", in("site"), "--force"}).exit_code, 0);
+}
+
+constexpr const char* kHall = R"({"nodes": [{"box": [1, 1, 1]}, {"object": "a shoe.rso", "translate": [0, 0.5, 0]}]})";
+
+TEST_F(Page, ScenesContainTheirObjects) {
+    std::ofstream(work_ / "hall.json") << kHall;
+    const test::ToolRun run = page({in("hall.json"), "-o", in("hall.html"), "--alt", "A <hall>"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    const std::string html = text("hall.html");
+    EXPECT_THAT(html, HasSubstr("<title>hall</title>"));
+    EXPECT_THAT(html, HasSubstr("<ray-space-scene alt=\"A &lt;hall&gt;\""));
+    EXPECT_THAT(html, HasSubstr("\"a%20shoe.rso\":\"data:application/octet-stream;base64," +
+                                base64(read_file(work_ / "a shoe.rso", 1U << 24).value())));
+    EXPECT_THAT(html, Not(HasSubstr("<script src")));
+    ASSERT_EQ(page({in("hall.json"), "--site", in("site")}).exit_code, 0);
+    EXPECT_EQ(text("site/a shoe.rso"), text("a shoe.rso"));
+    EXPECT_THAT(text("site/scene.glb"), HasSubstr("\"url\":\"a%20shoe.rso\""));
+    // Several objects, and one with lights, are scenes, too.
+    ASSERT_EQ(page({in("a shoe.rso"), in("a shoe.rso"), "-o", in("two.html")}).exit_code, 0);
+    EXPECT_THAT(text("two.html"), HasSubstr("<ray-space-scene"));
+    EXPECT_THAT(text("probe.html"), Not(HasSubstr("<ray-space-scene")));
+}
+
+TEST_F(Page, MissingObjectsOfScenesAreStated) {
+    std::ofstream(work_ / "hall.json") << R"({"nodes": [{"box": [1, 1, 1]}, {"object": "none.rso"}]})";
+    const test::ToolRun run = page({in("hall.json"), "-o", in("hall.html")});
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_THAT(run.err, HasSubstr("none.rso"));
+    EXPECT_THAT(run.err, HasSubstr("omitted"));
+    const test::ToolRun required = page({in("hall.json"), "--object", in("none.rso"), "-o", in("hall.html")});
+    EXPECT_EQ(required.exit_code, 1);
+    std::ofstream(work_ / "hall.json") << kHall;
+    EXPECT_EQ(page({in("hall.json"), "-o", in("hall.json")}).exit_code, 2);
+}
+
+TEST_F(Page, ExportedScenesAreReadAgain) {
+    std::ofstream(work_ / "hall.json") << kHall;
+    const auto view = [&](std::vector<std::string> arguments) {
+        return test::run_tool(scratch_.path(), "rs-view", arguments);
+    };
+    const test::ToolRun run = view({"export", in("hall.json"), "-o", in("hall.glb")});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(text("hall.glb").substr(0, 4), "glTF");
+    EXPECT_THAT(text("hall.glb"), HasSubstr("\"url\":\"a%20shoe.rso\""));
+    const test::ToolRun again = view({"export", in("hall.glb"), "-o", in("again.glb")});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(view({"export", in("hall.json"), "-o", in("hall.obj")}).exit_code, 2);
+    EXPECT_EQ(view({"export", in("hall.glb"), "-o", in("hall.glb")}).exit_code, 1) << "would overwrite its input";
 }
 
 TEST_F(Page, ScriptAndModuleAreSmall) {

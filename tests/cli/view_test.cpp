@@ -387,8 +387,8 @@ TEST_F(View, WithoutAWindowTheFirstViewIsWritten) {
 // The help of every subcommand fits on a screen and has an example; its options are not accepted elsewhere.
 TEST_F(View, HelpOfEachSubcommandFitsOnAScreen) {
     const std::vector<std::vector<std::string>> commands = {
-        {"open"},   {"render"}, {"quilt"}, {"walls"},        {"sequence"},      {"probe"},
-        {"lights"}, {"page"},   {"tile"},  {"tile", "plan"}, {"tile", "trace"}, {"tile", "assemble"}};
+        {"open"},   {"render"}, {"quilt"}, {"walls"},        {"sequence"},      {"probe"},           {"lights"},
+        {"export"}, {"page"},   {"tile"},  {"tile", "plan"}, {"tile", "trace"}, {"tile", "assemble"}};
     for (std::vector<std::string> command : commands) {
         command.emplace_back("--help");
         const test::ToolRun help = view(command);

@@ -219,6 +219,12 @@ private:
             light.beam_width_rad = number(given["spot"], "innerConeAngle", 0);
             light.cut_off_rad = std::clamp(number(given["spot"], "outerConeAngle", kPi / 4), 0.0, kPi / 2);
         }
+        if (given.contains("extras") && given["extras"].is_object() && given["extras"].contains("RaySpaceLight")) {
+            const json& extras = given["extras"]["RaySpaceLight"];
+            const auto ambient = numbers<3>(extras, "ambient", {0, 0, 0});
+            light.ambient = glm::vec3(ambient[0], ambient[1], ambient[2]);
+            light.least_attenuation = static_cast<float>(std::max(number(extras, "leastAttenuation", 1), 1e-6));
+        }
         light.name = name_of_light(given).value_or(name_of_light(node).value_or(""));
         scene_.lights.push_back(light);
     }

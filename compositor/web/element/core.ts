@@ -4,7 +4,6 @@ const kCellTextureWidth = 4096; // reconstruction_shader.hpp
 
 interface Exports {
   memory: WebAssembly.Memory;
-  _initialize(): void;
   web_error(): number;
   web_allocate(bytes: number): number;
   web_free(at: number): void;
@@ -145,35 +144,38 @@ export interface NextRange {
 /** Failure that a visitor may read: one sentence. */
 export class CoreError extends Error {}
 
+/** Starts an instance of the module, which holds one object. */
+export async function instantiate(module: BufferSource): Promise<WebAssembly.Exports> {
+  const nothing = () => 0;
+  const imports = {
+    env: { emscripten_notify_memory_growth: nothing },
+    wasi_snapshot_preview1: {
+      proc_exit: (code: number) => {
+        throw new CoreError(`the renderer has stopped (${code})`);
+      },
+      clock_time_get: nothing,
+      environ_get: nothing,
+      environ_sizes_get: nothing,
+      fd_close: nothing,
+      fd_pread: nothing,
+      fd_seek: nothing,
+      fd_write: nothing,
+    },
+  };
+  try {
+    const { instance } = await WebAssembly.instantiate(module, imports);
+    (instance.exports._initialize as () => void)();
+    return instance.exports;
+  } catch (error) {
+    throw new CoreError(`this browser cannot run WebAssembly with SIMD; update it (${error instanceof Error ? error.message : error})`);
+  }
+}
+
 export class Core {
   private constructor(private readonly wasm: Exports) {}
 
   static async create(module: BufferSource): Promise<Core> {
-    const nothing = () => 0;
-    const imports = {
-      env: { emscripten_notify_memory_growth: nothing },
-      wasi_snapshot_preview1: {
-        proc_exit: (code: number) => {
-          throw new CoreError(`the renderer has stopped (${code})`);
-        },
-        clock_time_get: nothing,
-        environ_get: nothing,
-        environ_sizes_get: nothing,
-        fd_close: nothing,
-        fd_pread: nothing,
-        fd_seek: nothing,
-        fd_write: nothing,
-      },
-    };
-    let instance: WebAssembly.Instance;
-    try {
-      ({ instance } = await WebAssembly.instantiate(module, imports));
-    } catch (error) {
-      throw new CoreError(`this browser cannot run WebAssembly with SIMD; update it (${error instanceof Error ? error.message : error})`);
-    }
-    const core = new Core(instance.exports as unknown as Exports);
-    core.wasm._initialize();
-    return core;
+    return new Core((await instantiate(module)) as unknown as Exports);
   }
 
   /**

@@ -1,8 +1,8 @@
-// node embed.mjs SCRIPT MODULE OUT.cpp: web_assets() with the bytes of both files.
+// node embed.mjs SCRIPT SCENE_SCRIPT MODULE OUT.cpp: web_assets() with the bytes of the files.
 import { readFileSync, writeFileSync } from "node:fs";
 import { gzipSync } from "node:zlib";
 
-const [script, module, output] = process.argv.slice(2);
+const [script, sceneScript, module, output] = process.argv.slice(2);
 const bytes = readFileSync(module);
 const literal = (data) => {
   const octal = Array.from(data, (byte) => `\\${byte.toString(8).padStart(3, "0")}`);
@@ -20,6 +20,8 @@ namespace {
 
 constexpr char kScript[] =
 ${literal(readFileSync(script))};
+constexpr char kSceneScript[] =
+${literal(readFileSync(sceneScript))};
 constexpr char kModule[] =
 ${literal(bytes)};
 constexpr char kCompressedModule[] =
@@ -33,7 +35,7 @@ std::span<const std::byte> bytes_of(const char (&text)[kSize]) {
 }  // namespace
 
 Result<WebAssets> web_assets() {
-    return WebAssets{{kScript, sizeof kScript - 1}, bytes_of(kModule), bytes_of(kCompressedModule)};
+    return WebAssets{{kScript, sizeof kScript - 1}, {kSceneScript, sizeof kSceneScript - 1}, bytes_of(kModule), bytes_of(kCompressedModule)};
 }
 
 }  // namespace rs::web

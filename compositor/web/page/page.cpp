@@ -1,5 +1,7 @@
 #include "compositor/web/page/page.hpp"
 
+#include "compositor/scene/export/gltf_file.hpp"
+#include "compositor/web/page/page_document.hpp"
 #include "compositor/web/page/web_assets.hpp"
 #include "compositor/web/view/object_view.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -17,13 +19,9 @@ constexpr int kPosterSide_px = 480;
 constexpr int kInlinePosterSide_px = 320;  // of a page whose object, which takes its place at once, is inside
 constexpr const char* kContents = "a web page";
 
-// The page fills the window; it follows the visitor's light or dark setting.
 constexpr const char* kStyle =
-    "html,body,main{height:100%;margin:0}body{background:#f4f4f2}"
-    "h1{position:absolute;width:1px;height:1px;margin:0;overflow:hidden;clip-path:inset(50%)}"
     "ray-space{width:100%;height:100%}"
-    "noscript img{width:100%;height:100%;object-fit:contain}"
-    "@media (prefers-color-scheme:dark){body{background:#16181c}}";
+    "noscript img{width:100%;height:100%;object-fit:contain}";
 
 struct PageObject {
     std::vector<std::byte> file;
@@ -44,10 +42,6 @@ Result<PageObject> read_page_object(const std::filesystem::path& path, int poste
     return object;
 }
 
-std::string data_url(const char* type, std::span<const std::byte> bytes) {
-    return std::string("data:") + type + ";base64," + base64(bytes);
-}
-
 // Addresses of the page's files.
 struct Addresses {
     std::string object;
@@ -59,32 +53,12 @@ std::string html(const PageOptions& options, const std::string& name, const Addr
                  const std::string& script_element) {
     const std::string title = escaped(options.title.empty() ? name : options.title);
     const std::string description = options.description.empty() ? title : escaped(options.description);
-    std::string page =
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-        title + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<main>\n<h1>" + title + "</h1>\n";
-    page += "<ray-space alt=\"" + description + "\" camera-controls auto-rotate\n  poster=\"" + addresses.poster + "\"";
-    if (!addresses.core.empty()) page += "\n  core=\"" + addresses.core + "\"";
-    page += "\n  src=\"" + addresses.object + "\"></ray-space>\n<noscript><img alt=\"" + description + "\" src=\"" +
-            addresses.poster + "\"></noscript>\n</main>\n";
-    return page + script_element + "\n</body>\n</html>\n";
-}
-
-// Percent-encoding of a file name in a relative address.
-std::string address_of(const std::string& file_name) {
-    std::string address;
-    for (const char c : file_name) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ||
-                           c == '_' || c == '.';
-        if (plain) {
-            address += c;
-            continue;
-        }
-        constexpr const char* kDigits = "0123456789ABCDEF";
-        address += {'%', kDigits[byte >> 4U], kDigits[byte & 15U]};
-    }
-    return address;
+    std::string content =
+        "<ray-space alt=\"" + description + "\" camera-controls auto-rotate\n  poster=\"" + addresses.poster + "\"";
+    if (!addresses.core.empty()) content += "\n  core=\"" + addresses.core + "\"";
+    content += "\n  src=\"" + addresses.object + "\"></ray-space>\n<noscript><img alt=\"" + description + "\" src=\"" +
+               addresses.poster + "\"></noscript>\n";
+    return page_document(title, kStyle, content, script_element);
 }
 
 }  // namespace
@@ -108,8 +82,8 @@ Status write_site(const std::filesystem::path& object, const std::filesystem::pa
     RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, kContents, force));
     const std::filesystem::path& into = staged.temporary_path();
     const std::string file_name = object.filename().string();
-    const std::string page =
-        html(options, shown.name, {address_of(file_name), "poster.png", ""}, "<script src=\"ray-space.js\"></script>");
+    const std::string page = html(options, shown.name, {compositor::url_of_path(file_name), "poster.png", ""},
+                                  "<script src=\"ray-space.js\"></script>");
     RS_TRY(write_file(into / file_name, shown.file));
     RS_TRY(write_file(into / "poster.png", shown.poster));
     RS_TRY(write_file(into / "ray-space.js", std::string(assets.script)));
