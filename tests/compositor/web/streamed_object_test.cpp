@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 constexpr std::uint64_t kPrefix_bytes = 1024;
 
-std::vector<std::byte> file_of(const RaySpaceObject& object) {
+std::vector<std::byte> saved_file(const RaySpaceObject& object) {
     const test::TemporaryFolder folder;
     EXPECT_TRUE(write_object(folder / "thing.rso", object).ok());
     return read_file(folder / "thing.rso", 1U << 24).value();
@@ -34,7 +34,7 @@ const std::vector<std::byte>& coded_file(int rings = 1) {
         RaySpaceObject object = test::coded_object({.rings = rings, .views_per_ring = 16, .width = 40, .height = 36},
                                                    {.effort = encode::kMinEffort});
         for (std::size_t r = 0; r < object.rings.size(); ++r) object.rings[r].shape = test::small_shape(object, r);
-        file = file_of(object);
+        file = saved_file(object);
     }
     return file;
 }
@@ -74,7 +74,7 @@ struct Page {
 
 TEST(StreamedObject, FilesInPiecesGiveTheViewsOfTheWhole) {
     RaySpaceObject raw = test::small_object_with_shape({.rings = 2});
-    for (const std::vector<std::byte>& file : {coded_file(1), coded_file(2), file_of(raw)}) {
+    for (const std::vector<std::byte>& file : {coded_file(1), coded_file(2), saved_file(raw)}) {
         for (const std::size_t piece : {std::size_t{1}, std::size_t{37}, std::size_t{1000}, file.size()}) {
             Page page(std::nullopt);
             std::size_t photos = 0;
