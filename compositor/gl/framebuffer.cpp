@@ -57,6 +57,11 @@ Result<Framebuffer> Framebuffer::create(int width, int height, int samples) {
     return made;
 }
 
+void Framebuffer::resume() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
+    glViewport(0, 0, width_, height_);
+}
+
 void Framebuffer::begin(const glm::vec3& background, bool keep_depth) const {
     glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
     glViewport(0, 0, width_, height_);

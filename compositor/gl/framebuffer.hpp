@@ -23,6 +23,8 @@ public:
 
     /// Renders here from now on. Clears colour (linear light) and, unless kept, depth (to infinity).
     void begin(const glm::vec3& background, bool keep_depth = false) const;
+    /// Renders here again from now on, over what it holds.
+    void resume() const;
     /// Averages the samples into `target`, which has the same size and one sample.
     void resolve_to(const Framebuffer& target) const;
     /// Depth at a pixel: near plane / distance, 0 where nothing was drawn. Waits for all drawing.

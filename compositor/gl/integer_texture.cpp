@@ -19,6 +19,8 @@ FormatNames names_of(IntegerFormat format) {
     switch (format) {
         case IntegerFormat::kSigned8:
             return {GL_R8I, GL_RED_INTEGER, GL_BYTE};
+        case IntegerFormat::kSigned32:
+            return {GL_R32I, GL_RED_INTEGER, GL_INT};
         case IntegerFormat::kSigned32x4:
             return {GL_RGBA32I, GL_RGBA_INTEGER, GL_INT};
         case IntegerFormat::kUnsigned8x4:
@@ -31,14 +33,28 @@ std::string size_text(int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// Renderbuffer of one integer format, attached to a framebuffer.
-Handle<Kind::kRenderbuffer> attach_renderbuffer(unsigned framebuffer, GLenum attachment, GLenum format, int width,
-                                                int height) {
+void set_nearest(unsigned name) {
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+// Texture of one integer format, attached to a framebuffer.
+Handle<Kind::kTexture> attach_texture(unsigned framebuffer, GLenum attachment, GLenum format, int width, int height) {
     unsigned name = 0;
-    glCreateRenderbuffers(1, &name);
-    glNamedRenderbufferStorage(name, format, width, height);
-    glNamedFramebufferRenderbuffer(framebuffer, attachment, GL_RENDERBUFFER, name);
-    return Handle<Kind::kRenderbuffer>(name);
+    glCreateTextures(GL_TEXTURE_2D, 1, &name);
+    glTextureStorage2D(name, 1, format, width, height);
+    set_nearest(name);
+    glNamedFramebufferTexture(framebuffer, attachment, name, 0);
+    return Handle<Kind::kTexture>(name);
+}
+
+// The texels of an RGBA8UI texture as sRGB.
+Handle<Kind::kTexture> srgb_view(unsigned texture) {
+    unsigned name = 0;
+    glGenTextures(1, &name);
+    glTextureView(name, GL_TEXTURE_2D, texture, GL_SRGB8_ALPHA8, 0, 1, 0, 1);
+    set_nearest(name);
+    return Handle<Kind::kTexture>(name);
 }
 
 template <class Pixel>
@@ -71,8 +87,7 @@ IntegerTexture::IntegerTexture(IntegerFormat format, int width, int height, int 
     } else {
         glTextureStorage2D(name, 1, internal, width, height);
     }
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    set_nearest(name);
 }
 
 Result<IntegerTexture> IntegerTexture::create_layers(IntegerFormat format, int width, int height, int layers) {
@@ -120,27 +135,43 @@ Result<IntegerTarget> IntegerTarget::create(int width, int height) {
     unsigned name = 0;
     glCreateFramebuffers(1, &name);
     made.handle_ = Handle<Kind::kFramebuffer>(name);
-    made.colours_ = attach_renderbuffer(name, GL_COLOR_ATTACHMENT0, GL_RGBA8UI, width, height);
-    made.numbers_ = attach_renderbuffer(name, GL_COLOR_ATTACHMENT1, GL_R32I, width, height);
+    made.colours_ = attach_texture(name, GL_COLOR_ATTACHMENT0, GL_RGBA8UI, width, height);
+    made.numbers_ = attach_texture(name, GL_COLOR_ATTACHMENT1, GL_R32I, width, height);
     const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     glNamedFramebufferDrawBuffers(name, 2, both);
     if (glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
         return Error{"OpenGL: the driver cannot draw into an integer image of " + size_text(width, height) +
                      "; use a smaller one"};
     }
+    made.srgb_colours_ = srgb_view(made.colours_.name());
     return made;
 }
 
-void IntegerTarget::begin_rows(int width, int first_row, int rows) const {
-    RS_CHECK(width <= width_ && first_row + rows <= height_);
+void IntegerTarget::clear() const {
+    constexpr GLuint kNoColour[] = {0, 0, 0, 0};
+    constexpr GLint kNoNumber[] = {0, 0, 0, 0};
+    glClearNamedFramebufferuiv(handle_.name(), GL_COLOR, 0, kNoColour);
+    glClearNamedFramebufferiv(handle_.name(), GL_COLOR, 1, kNoNumber);
+}
+
+void IntegerTarget::begin(int left, int top, int width, int height) const {
+    RS_CHECK(left >= 0 && top >= 0 && left + width <= width_ && top + height <= height_);
     glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
-    glViewport(0, first_row, width, rows);
+    glViewport(left, top, width, height);
 }
 
 void IntegerTarget::read(ImageView<Rgba8> colours, ImageView<std::int32_t> numbers) const {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, handle_.name());
     read_attachment(GL_COLOR_ATTACHMENT0, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE, colours);
     read_attachment(GL_COLOR_ATTACHMENT1, GL_RED_INTEGER, GL_INT, numbers);
+}
+
+void IntegerTarget::bind_colours(unsigned unit) const {
+    glBindTextureUnit(unit, srgb_colours_.name());
+}
+
+void IntegerTarget::bind_numbers(unsigned unit) const {
+    glBindTextureUnit(unit, numbers_.name());
 }
 
 }  // namespace rs::gl

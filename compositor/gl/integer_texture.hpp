@@ -13,6 +13,7 @@ namespace rs::gl {
 enum class IntegerFormat {
     kUnsigned8x4,  // usampler: Rgba8, or four bytes
     kSigned8,      // isampler: std::int8_t
+    kSigned32,     // isampler: std::int32_t
     kSigned32x4,   // isampler: four std::int32_t
 };
 
@@ -52,7 +53,7 @@ private:
 };
 
 /// Render target of two integer images: RGBA of 8 bits (`layout(location = 0) out uvec4`) and a signed number of 32
-/// bits (`layout(location = 1) out int`) per pixel.
+/// bits (`layout(location = 1) out int`) per pixel. Both are textures for later draws.
 class IntegerTarget {
 public:
     /// Fails if the driver does not support the size.
@@ -60,15 +61,22 @@ public:
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
 
-    /// Draws into pixels [0, width) x [first_row, first_row + rows) from now on; gl_FragCoord.xy - 0.5 is the pixel.
-    void begin_rows(int width, int first_row, int rows) const;
+    /// Sets both images to 0.
+    void clear() const;
+    /// Draws into pixels [left, left + width) x [top, top + height) from now on; gl_FragCoord.xy - 0.5 is the pixel.
+    void begin(int left, int top, int width, int height) const;
     /// Reads the top left corner of both images; waits for all drawing. \param numbers empty: not read
     void read(ImageView<Rgba8> colours, ImageView<std::int32_t> numbers) const;
+    /// Binds the first image to `uniform sampler2D` with layout(binding = unit), as sRGB colour with straight alpha.
+    void bind_colours(unsigned unit) const;
+    /// Binds the second image to `uniform isampler2D` with layout(binding = unit).
+    void bind_numbers(unsigned unit) const;
 
 private:
     IntegerTarget() = default;
-    Handle<Kind::kRenderbuffer> colours_;
-    Handle<Kind::kRenderbuffer> numbers_;
+    Handle<Kind::kTexture> colours_;
+    Handle<Kind::kTexture> numbers_;
+    Handle<Kind::kTexture> srgb_colours_;  // the same texels
     Handle<Kind::kFramebuffer> handle_;
     int width_ = 0;
     int height_ = 0;

@@ -79,6 +79,10 @@ void Program::set(const char* uniform, float value) const {
     glProgramUniform1f(name(), location(uniform), value);
 }
 
+void Program::set(const char* uniform, double value) const {
+    glProgramUniform1d(name(), location(uniform), value);
+}
+
 void Program::set(const char* uniform, const glm::vec2& value) const {
     glProgramUniform2f(name(), location(uniform), value.x, value.y);
 }

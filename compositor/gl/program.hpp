@@ -20,6 +20,7 @@ public:
     /// \param uniform must be an active uniform of the argument's type.
     void set(const char* uniform, int value) const;
     void set(const char* uniform, float value) const;
+    void set(const char* uniform, double value) const;
     void set(const char* uniform, const glm::vec2& value) const;
     void set(const char* uniform, const glm::ivec2& value) const;
     void set(const char* uniform, const glm::ivec4& value) const;

@@ -15,8 +15,6 @@ namespace {
 
 GLenum format_of(TexelKind kind) {
     switch (kind) {
-        case TexelKind::kFloat:
-            return GL_R32F;
         case TexelKind::kLinear:
             return GL_RGBA16;
         case TexelKind::kDirection:
@@ -98,10 +96,6 @@ void Texture::set_trilinear(const TextureWrap& wrap) const {
 
 void Texture::upload(ConstImageView<Rgba8> image) const {
     upload(image.data(), image.width(), image.height(), image.stride(), GL_RGBA, GL_UNSIGNED_BYTE);
-}
-
-void Texture::upload(ConstImageView<float> image) const {
-    upload(image.data(), image.width(), image.height(), image.stride(), GL_RED, GL_FLOAT);
 }
 
 void Texture::upload(const void* texels, int width, int height, std::ptrdiff_t stride, unsigned format,

@@ -1,5 +1,5 @@
 #pragma once
-// Image on the GPU with straight alpha: sampled as linear light, or as one float per pixel.
+// Image on the GPU with straight alpha: sampled as linear light.
 
 #include "compositor/gl/handle.hpp"
 #include "rayspace/image/image.hpp"
@@ -17,7 +17,6 @@ struct TextureWrap {
 enum class TexelKind {
     kColour,  // 8-bit sRGB
     kLinear,  // 16-bit linear light: twice the memory, but no sRGB decoding per sample in software rendering
-    kFloat,
     kDirection
 };
 
@@ -37,7 +36,6 @@ public:
 
     /// Overwrites the top left corner; the image must fit. Its first row becomes texel row 0.
     void upload(ConstImageView<Rgba8> image) const;
-    void upload(ConstImageView<float> image) const;
     /// Attaches the texture as the colour buffer of a framebuffer for reading.
     void attach_to(unsigned framebuffer) const;
     /// Binds to `uniform sampler2D` with layout(binding = unit).

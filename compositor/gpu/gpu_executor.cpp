@@ -3,8 +3,10 @@
 #include "compositor/gl/context.hpp"
 #include "compositor/gpu/gpu_object.hpp"
 #include "compositor/gpu/gpu_renderer.hpp"
-#include "compositor/gpu/shader/object_textures.hpp"
+#include "compositor/gpu/object_textures.hpp"
+#include "compositor/gpu/shader/texture_layout.hpp"
 
+#include <algorithm>
 #include <condition_variable>
 #include <future>
 #include <map>
@@ -69,15 +71,19 @@ struct GpuState {
     gl::Context context;
     GpuRenderer renderer;
     gl::TextureLimits limits;
-    std::map<int, GpuObject> objects;
 
-    static Result<std::unique_ptr<GpuState>> open() {
+    static Result<std::unique_ptr<GpuState>> open(const GpuExecutorOptions& options) {
         RS_ASSIGN_OR_RETURN(gl::Context context, gl::Context::create_surfaceless());
-        RS_ASSIGN_OR_RETURN(GpuRenderer renderer, GpuRenderer::create());
+        RS_ASSIGN_OR_RETURN(GpuRenderer renderer, GpuRenderer::create({.memory_bytes = options.memory_bytes}));
         const gl::TextureLimits limits = gl::texture_limits();
-        return std::make_unique<GpuState>(GpuState{std::move(context), std::move(renderer), limits, {}});
+        return std::make_unique<GpuState>(GpuState{std::move(context), std::move(renderer), limits});
     }
 };
+
+// Memory that an object needs in any case.
+std::int64_t least_bytes(const RaySpaceObject& object) {
+    return gpu_bytes(object, std::min(static_cast<int>(object.views.size()), kMinPhotoLayers));
+}
 
 class GpuExecutor final : public engine::Executor {
 public:
@@ -89,7 +95,7 @@ public:
     Status open() {
         Status opened;
         thread_.call([&] {
-            Result<std::unique_ptr<GpuState>> state = GpuState::open();
+            Result<std::unique_ptr<GpuState>> state = GpuState::open(options_);
             if (state) {
                 state_ = std::move(*state);
                 limits_ = state_->limits;
@@ -103,70 +109,68 @@ public:
     [[nodiscard]] const engine::ExecutorTraits& traits() const override { return traits_; }
 
     [[nodiscard]] Status supports(const RaySpaceObject& object) const override {
-        RS_TRY(check_texture_limits(object, limits_.side, limits_.layers));
-        const std::int64_t bytes = gpu_bytes(object);
+        RS_TRY(check_texture_limits(object, kMinPhotoLayers, limits_.side, limits_.layers));
+        const std::int64_t bytes = least_bytes(object);
         if (bytes <= options_.memory_bytes) return {};
         return Error{object.name + ": needs " + std::to_string(bytes / kMebibyte) +
                      " MiB of GPU memory, more than the limit of " + std::to_string(options_.memory_bytes / kMebibyte) +
-                     "; encode it with fewer or smaller photos"};
+                     "; encode it with smaller photos"};
     }
 
     Result<std::optional<int>> load(const RaySpaceObject& object) override {
         RS_TRY(supports(object));
-        const std::int64_t bytes = gpu_bytes(object);
+        const std::int64_t bytes = least_bytes(object);
         if (used_bytes_ + bytes > options_.memory_bytes) return std::optional<int>();
-        Status loaded;
-        thread_.call([&] {
-            Result<GpuObject> made = GpuObject::create(object);
-            if (made) {
-                state_->objects.emplace(next_slot_, std::move(*made));
-            } else {
-                loaded = made.error();
-            }
-        });
-        RS_TRY(loaded);
+        RS_ASSIGN_OR_RETURN(std::shared_ptr<const GpuObject> loaded, GpuObject::create(object));
         used_bytes_ += bytes;
-        bytes_of_slot_[next_slot_] = bytes;
+        objects_[next_slot_] = std::move(loaded);
         return std::optional<int>(next_slot_++);
     }
 
     Status evict(int slot) override {
-        const auto found = bytes_of_slot_.find(slot);
-        if (found == bytes_of_slot_.end()) return {};
-        used_bytes_ -= found->second;
-        bytes_of_slot_.erase(found);
-        thread_.call([&] { state_->objects.erase(slot); });
+        const auto found = objects_.find(slot);
+        if (found == objects_.end()) return {};
+        used_bytes_ -= least_bytes(found->second->object());
+        objects_.erase(found);
         return {};
     }
 
     Result<std::vector<engine::ExecutedView>> render(const std::vector<engine::SlotView>& views) override {
-        Result<std::vector<engine::ExecutedView>> drawn = std::vector<engine::ExecutedView>();
-        thread_.call([&] { drawn = render_views(views); });
+        std::vector<engine::ExecutedView> drawn;
+        for (const engine::SlotView& view : views) {
+            const auto found = objects_.find(view.slot);
+            if (found == objects_.end()) return engine::no_object_in(view.slot);
+            RS_ASSIGN_OR_RETURN(engine::ExecutedView image,
+                                view.may_defer ? defer(found->second, view) : draw(found->second, view));
+            drawn.push_back(std::move(image));
+        }
         return drawn;
     }
 
 private:
-    // On the thread of the context.
-    Result<std::vector<engine::ExecutedView>> render_views(const std::vector<engine::SlotView>& views) {
-        std::vector<engine::ExecutedView> drawn;
-        for (const engine::SlotView& view : views) {
-            const auto found = state_->objects.find(view.slot);
-            if (found == state_->objects.end()) return engine::no_object_in(view.slot);
-            RS_ASSIGN_OR_RETURN(engine::ExecutedView image,
-                                state_->renderer.render(found->second, view.registers, view.depth));
-            drawn.push_back(std::move(image));
-        }
+    [[nodiscard]] Result<engine::ExecutedView> defer(const std::shared_ptr<const GpuObject>& object,
+                                                     const engine::SlotView& view) const {
+        auto deferred = std::make_shared<DeferredGpuView>();
+        deferred->object = object;
+        deferred->registers = view.registers;
+        deferred->memory_bytes = options_.memory_bytes;
+        return engine::ExecutedView{.image = {}, .depth_q20 = {}, .deferred = std::move(deferred)};
+    }
+
+    Result<engine::ExecutedView> draw(const std::shared_ptr<const GpuObject>& object, const engine::SlotView& view) {
+        Result<engine::ExecutedView> drawn = engine::ExecutedView();
+        thread_.call([&] { drawn = state_->renderer.render(object, view.registers, view.depth); });
         return drawn;
     }
 
     GpuExecutorOptions options_;
     engine::ExecutorTraits traits_{.name = "gpu"};
     gl::TextureLimits limits_;
-    std::int64_t used_bytes_ = 0;
-    std::map<int, std::int64_t> bytes_of_slot_;
+    std::map<int, std::shared_ptr<const GpuObject>> objects_;  // by slot
+    std::int64_t used_bytes_ = 0;                              // least_bytes() of the objects
     int next_slot_ = 0;
     CallThread thread_;
-    std::unique_ptr<GpuState> state_;  // used on the thread only
+    std::unique_ptr<GpuState> state_;  // used and destroyed on thread_
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 // The GPU as an executor (rayspace/api/types/executor.hpp): `gpu` of --executor. Renders every view that the software
-// core renders, to the same bits, with an OpenGL 4.5 context of its own.
+// core renders, to the same bits. Views that may be deferred are left to the caller's OpenGL context as
+// DeferredGpuView (gpu_renderer.hpp); others are drawn in an OpenGL 4.5 context of the executor and read back.
 
 #include "rayspace/api/types/executor_table.hpp"
 #include "rayspace/base/result.hpp"
@@ -11,7 +12,8 @@
 namespace rs::compositor {
 
 struct GpuExecutorOptions {
-    /// Limit for the textures of all loaded objects: 5 bytes per pixel of each photo and 4 per cell of each shape map.
+    /// Limit for the textures in each context (GpuRendererOptions::memory_bytes). Objects are loaded as long as the
+    /// cells of their shape maps and two of their photos fit.
     std::int64_t memory_bytes = std::int64_t{2} << 30;
 };
 

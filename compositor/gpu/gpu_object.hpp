@@ -1,24 +1,36 @@
 #pragma once
-// Textures of a ray-space object for the reconstruction shader: its photos as RGBA with their detail, one layer per
-// view, and the cells of its shape maps (shader/object_textures.hpp).
+// An object prepared for the reconstruction shader, on the CPU: its shape maps with the bounds of their columns, and
+// its photos, which are decoded when a view needs them. Its textures are object_textures.hpp.
 
-#include "compositor/gl/integer_texture.hpp"
+#include "compositor/gpu/shader/photo_texels.hpp"
 #include "compositor/gpu/shader/view_setup.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
+namespace rs::engine {
+class TexelStore;
+}
+
 namespace rs::compositor {
 
-/// Requires a current gl::Context that outlives it; single-threaded, move-only.
+/// Immutable; thread-safe.
 class GpuObject {
 public:
-    /// Decodes and uploads all photos, on the threads of the calling tbb arena. Missing photos are substituted, as the
-    /// core does. Decoding takes 4 bytes per pixel of CPU memory until the object is uploaded.
-    /// \param object valid and within the limits
-    static Result<GpuObject> create(RaySpaceObject object);
+    /// CPU memory for decoded photos, beyond which the least recently used ones are freed.
+    static constexpr std::int64_t kDecodedBytes = std::int64_t{64} << 20;
+
+    /// Substitutes missing photos, as the core does. Photos that are not compressed are converted, which takes 5 bytes
+    /// per pixel.
+    /// \param object valid
+    static Result<std::shared_ptr<const GpuObject>> create(RaySpaceObject object);
+    GpuObject(const GpuObject&) = delete;
+    GpuObject& operator=(const GpuObject&) = delete;
+    ~GpuObject();
 
     /// The object without its photos.
     [[nodiscard]] const RaySpaceObject& object() const { return object_; }
@@ -26,18 +38,17 @@ public:
     [[nodiscard]] std::span<const ColumnBounds> bounds(int ring) const {
         return bounds_[static_cast<std::size_t>(ring)];
     }
-    /// Binds the textures of a ring to the units of reconstruction_shader.hpp.
-    void bind(int ring) const;
+
+    /// Decodes a photo unless it is decoded already, on the threads of the calling tbb arena.
+    /// \param view  of a photo that is loaded
+    [[nodiscard]] PhotoTexels photo(int view) const;
 
 private:
-    GpuObject(RaySpaceObject object, gl::IntegerTexture photos, gl::IntegerTexture details,
-              std::vector<gl::IntegerTexture> cells);
+    GpuObject(RaySpaceObject object, std::unique_ptr<engine::TexelStore> texels);
 
     RaySpaceObject object_;
-    gl::IntegerTexture photos_;
-    gl::IntegerTexture details_;
+    std::unique_ptr<engine::TexelStore> texels_;
     std::vector<std::vector<ColumnBounds>> bounds_;  // [ring]
-    std::vector<gl::IntegerTexture> cells_;          // [ring]; empty pairs for rings without cells
 };
 
 }  // namespace rs::compositor

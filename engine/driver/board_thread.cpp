@@ -96,7 +96,8 @@ void BoardThread::draw(std::vector<ObjectView> views) {
             drawn_.emplace(Error{"object " + std::to_string(view.object) + " was removed from the board"});
             return;
         }
-        cycle.push_back({*found->second.slot, std::move(view.registers)});
+        cycle.push_back(
+            {.slot = *found->second.slot, .registers = std::move(view.registers), .may_defer = view.may_defer});
     }
     drawn_.reset();
     cycle_ = std::move(cycle);

@@ -57,6 +57,7 @@ public:
     struct ObjectView {
         std::uint32_t object = 0;
         ViewRegisters registers;
+        bool may_defer = false;  // SlotView::may_defer
     };
     /// After reserve(): starts rendering views of objects in the board's memory. An empty list only releases the board.
     void draw(std::vector<ObjectView> views);

@@ -20,7 +20,8 @@ DrawnView render_on_core(const PreparedView& view) {
     const auto begin = std::chrono::steady_clock::now();
     CoreExecutor core;
     const int slot = core.add(view.renderer);
-    Result<std::vector<ExecutedView>> drawn = core.render({{slot, view.registers, view.depth}});
+    Result<std::vector<ExecutedView>> drawn =
+        core.render({{.slot = slot, .registers = view.registers, .depth = view.depth}});
     return {std::move(drawn.value().front()), seconds_since(begin)};
 }
 
@@ -74,7 +75,7 @@ Result<std::vector<DrawnView>> CycleExecutor::draw(const std::vector<PreparedVie
     std::vector<BoardThread::ObjectView> for_board;
     for (const std::size_t v : share) {
         on_board[v] = true;
-        for_board.push_back({views[v].object, views[v].registers});
+        for_board.push_back({views[v].object, views[v].registers, views[v].may_defer});
     }
     const auto begin = std::chrono::steady_clock::now();
     if (reserved) board_->draw(std::move(for_board));

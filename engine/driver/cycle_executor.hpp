@@ -26,6 +26,7 @@ struct PreparedView {
     ViewRegisters registers;
     bool depth = false;             // depth is requested
     bool board_can_render = false;  // once the object is in its memory
+    bool may_defer = false;         // ExecutedView::deferred is accepted
     [[nodiscard]] std::int64_t pixels() const { return std::int64_t{registers.width} * registers.height; }
 };
 

@@ -223,8 +223,8 @@ Result<CycleHandle> RenderSession::submit(const std::vector<ViewRequest>& views)
             const std::optional<std::string> refusal = board->load_refusal(view.object.number);
             if (refusal) refusals.push_back({view.object, object.name + ": " + *refusal});
         }
-        cycle->views.push_back(
-            {view.object.number, found->second.renderer, std::move(*registers), view.depth, board_can_render});
+        cycle->views.push_back({view.object.number, found->second.renderer, std::move(*registers), view.depth,
+                                board_can_render, view.may_defer});
     }
     if (state_->cycles.size() >= static_cast<std::size_t>(state_->limits.cycles_in_flight)) {
         return Error{std::to_string(state_->cycles.size()) + " cycles are not yet retrieved; retrieve one first"};

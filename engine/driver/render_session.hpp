@@ -36,6 +36,8 @@ struct ViewRequest {
     ObjectHandle object;
     Camera camera;       // in the units of the object's rig
     bool depth = false;  // also compute axial depth
+    // Accept ExecutedView::deferred of the board, which the caller then renders.
+    bool may_defer = false;
 };
 
 struct CycleHandle {

@@ -130,21 +130,24 @@ std::vector<SetupTexel> set_up_rows(const RaySpaceObject& object, const engine::
     return texels;
 }
 
+PhotosOfSetup photos_of(const SetupTexel& head, const SetupTexel& view) {
+    const auto kind = static_cast<SetupKind>(head[0] & 3);
+    if (kind == SetupKind::kNoRay) return {};
+    if (kind == SetupKind::kPlane) return {view[0], -1};
+    const int weight = (head[0] >> 2) & 511;  // of the second photo, in 1/256
+    return {weight < 256 ? view[2] & 0xFFFF : -1, weight > 0 ? (view[2] >> 16) & 0xFFFF : -1};
+}
+
 std::vector<int> photos_of(std::span<const SetupTexel> setups, int width) {
     std::set<int> photos;
     const auto columns = static_cast<std::size_t>(width);
     for (std::size_t row = 0; row < setups.size(); row += kSetupTexels * columns) {
         for (std::size_t n = row; n < row + columns; ++n) {
-            const std::int32_t head = setups[n][0];
-            const SetupTexel& layers = setups[n + columns];
-            const auto kind = static_cast<SetupKind>(head & 3);
-            if (kind == SetupKind::kPlane) photos.insert(layers[0]);
-            if (kind != SetupKind::kShape && kind != SetupKind::kNoShape) continue;
-            const int weight = (head >> 2) & 511;  // of the second photo, in 1/256
-            if (weight < 256) photos.insert(layers[2] & 0xFFFF);
-            if (weight > 0) photos.insert(layers[2] >> 16 & 0xFFFF);
+            const auto [first, second] = photos_of(setups[n], setups[n + columns]);
+            photos.insert({first, second});
         }
     }
+    photos.erase(-1);
     return {photos.begin(), photos.end()};
 }
 

@@ -47,6 +47,13 @@ std::vector<ColumnBounds> column_bounds(const ShapeMap& shape);
 std::vector<SetupTexel> set_up_rows(const RaySpaceObject& object, const engine::ViewRegisters& registers,
                                     std::span<const ColumnBounds> bounds, int first_row, int rows);
 
+/// Numbers of the photos that a set-up refers to, -1: none. \param head, view  its texels 0 and 1
+struct PhotosOfSetup {
+    int first = -1;
+    int second = -1;
+};
+PhotosOfSetup photos_of(const SetupTexel& head, const SetupTexel& view);
+
 /// Numbers of the photos that set-ups refer to, ascending.
 /// \param setups  of set_up_rows(), `width` texels wide
 std::vector<int> photos_of(std::span<const SetupTexel> setups, int width);

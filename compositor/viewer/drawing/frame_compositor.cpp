@@ -33,7 +33,7 @@ Result<FrameCompositor::Passes> FrameCompositor::make_passes(const Scene& scene,
     RS_ASSIGN_OR_RETURN(auto underlay, TracedUnderlayPass::create());
     RS_ASSIGN_OR_RETURN(auto objects, ObjectPass::create(nodes, options.object_depth, options.object_cartoon));
     RS_ASSIGN_OR_RETURN(auto weather, WeatherPass::create(scene));
-    return Passes{.object_requests = ObjectRequestPass(has_object_depth),
+    return Passes{.object_requests = ObjectRequestPass(has_object_depth, !options.object_cartoon),
                   .shadow_maps = {},
                   .reflections = {},
                   .depth = DepthPass(has_object_depth),

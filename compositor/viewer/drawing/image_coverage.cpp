@@ -135,6 +135,32 @@ std::vector<CoverageBand> coverage_bands(ConstImageView<Rgba8> image, int margin
     return bands;
 }
 
+std::vector<CoverageBand> coverage_bands(std::span<const PixelRect> visible, int margin_px) {
+    std::vector<CoverageBand> bands;
+    if (visible.empty()) return bands;
+    const auto bottom_of = [](const PixelRect& rect) { return rect.top + rect.height; };
+    const int top = std::ranges::min(visible, {}, &PixelRect::top).top - margin_px;
+    const int bottom = bottom_of(std::ranges::max(visible, {}, bottom_of)) + margin_px;
+    for (int row = top; row < bottom; row += kBandRows) {
+        CoverageBand& band = bands.emplace_back(CoverageBand{row, std::min(row + kBandRows, bottom), {}});
+        for (const PixelRect& rect : visible) {
+            if (rect.top - margin_px >= band.bottom || bottom_of(rect) + margin_px <= band.top) continue;
+            band.runs.push_back({rect.left - margin_px, rect.left + rect.width + margin_px, false});
+        }
+        std::ranges::sort(band.runs, {}, &CoverageRun::begin);
+        std::vector<CoverageRun> joined;
+        for (const CoverageRun& run : band.runs) {
+            if (!joined.empty() && run.begin <= joined.back().end) {
+                joined.back().end = std::max(joined.back().end, run.end);
+            } else {
+                joined.push_back(run);
+            }
+        }
+        band.runs = std::move(joined);
+    }
+    return bands;
+}
+
 CoverageMesh coverage_mesh(const std::vector<CoverageBand>& bands, const glm::dmat3& screen_from_image) {
     CoverageMesh mesh;
     const auto line = [&](const CoverageBand* above, const CoverageBand* below, int row) {

@@ -6,11 +6,13 @@
 //
 // Adjacent polygons share their corners exactly, so that no pixel between them is skipped or drawn twice.
 
+#include "compositor/gpu/visible_area.hpp"
 #include "rayspace/image/image.hpp"
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace rs::compositor {
@@ -35,6 +37,9 @@ struct CoverageBand {
 /// Bands from top to bottom without gaps.
 /// \param margin_px >= 0; distance at which a screen pixel may sample the image.
 std::vector<CoverageBand> coverage_bands(ConstImageView<Rgba8> image, int margin_px);
+
+/// The same of an image that is transparent outside of rectangles without overlap; no run is opaque.
+std::vector<CoverageBand> coverage_bands(std::span<const PixelRect> visible, int margin_px);
 
 /// Triangles of the runs. Corners are homogeneous: (x, y, w) is the position (x / w, y / w) on the screen.
 struct CoverageMesh {

@@ -17,13 +17,15 @@ namespace {
 
 constexpr float kDepthWriteAlpha = 0.5F;  // pixels of at least this alpha write depth
 
-// Returns the texture, reallocated if smaller than width x height.
-gl::Texture& ensure_size(std::optional<gl::Texture>& texture, int width, int height, gl::TexelKind kind) {
-    if (!texture || texture->width() < width || texture->height() < height) {
-        texture.emplace(std::max(texture ? texture->width() : 0, width),
-                        std::max(texture ? texture->height() : 0, height), kind);
-    }
-    return *texture;
+// Calls make(width, height) for an image that is missing or smaller than width x height.
+template <class Sized, class Make>
+Status ensure_size(std::optional<Sized>& image, int width, int height, const Make& make) {
+    if (image && image->width() >= width && image->height() >= height) return {};
+    const int columns = std::max(image ? image->width() : 0, width);
+    const int rows = std::max(image ? image->height() : 0, height);
+    image.reset();
+    RS_ASSIGN_OR_RETURN(image, make(columns, rows));
+    return {};
 }
 
 // Largest distance, in image pixels, from the projection of a screen pixel at which it or a neighbour samples the
@@ -76,9 +78,10 @@ Result<ObjectRenderer> ObjectRenderer::create(std::size_t nodes, ObjectDepth dep
 ObjectRenderer::ObjectRenderer(Programs programs, std::size_t nodes, ObjectDepth depth)
     : depth_(depth), programs_(std::move(programs)), textures_(nodes) {}
 
-void ObjectRenderer::upload(std::size_t node, const ObjectView& view, ConstImageView<Rgba8> image,
-                            ConstImageView<float> depths) {
+Status ObjectRenderer::upload(std::size_t node, const ObjectView& view, const Image<Rgba8>& image,
+                              const Image<std::int32_t>& depths_q20) {
     Textures& textures = textures_[node];
+    textures.is_drawn = false;
     const CoverageMesh shown =
         coverage_mesh(coverage_bands(image, margin_of(view)), glm::inverse(view.image_from_screen));
     textures.opaque = triangles(shown.corners, shown.opaque);
@@ -86,10 +89,33 @@ void ObjectRenderer::upload(std::size_t node, const ObjectView& view, ConstImage
     textures.filled_last ^= 1;
     const int width = image.width();
     const int height = image.height();
-    ensure_size(textures.in_turns[textures.filled_last], width, height, gl::TexelKind::kColour).upload(image);
-    if (depth_ != ObjectDepth::kPixel) return;
-    RS_CHECK(depths.width() == width && depths.height() == height);
-    ensure_size(textures.depths[textures.filled_last], width, height, gl::TexelKind::kFloat).upload(depths);
+    std::optional<gl::Texture>& colours = textures.in_turns[textures.filled_last];
+    RS_TRY(ensure_size(colours, width, height,
+                       [](int columns, int rows) -> Result<gl::Texture> { return gl::Texture(columns, rows); }));
+    colours->upload(image);
+    if (depth_ != ObjectDepth::kPixel) return {};
+    RS_CHECK(depths_q20.width() == width && depths_q20.height() == height);
+    std::optional<gl::IntegerTexture>& depths = textures.depths[textures.filled_last];
+    RS_TRY(ensure_size(depths, width, height, [](int columns, int rows) {
+        return gl::IntegerTexture::create(gl::IntegerFormat::kSigned32, columns, rows);
+    }));
+    depths->upload(width, height, depths_q20.data());
+    return {};
+}
+
+Result<const gl::IntegerTarget*> ObjectRenderer::target(std::size_t node, const ObjectView& view) {
+    Textures& textures = textures_[node];
+    RS_TRY(ensure_size(textures.drawn, view.camera.width, view.camera.height, gl::IntegerTarget::create));
+    return &*textures.drawn;
+}
+
+void ObjectRenderer::set_drawn(std::size_t node, const ObjectView& view, std::span<const PixelRect> visible) {
+    Textures& textures = textures_[node];
+    textures.is_drawn = true;
+    const CoverageMesh shown =
+        coverage_mesh(coverage_bands(visible, margin_of(view)), glm::inverse(view.image_from_screen));
+    textures.opaque.reset();
+    textures.blended = triangles(shown.corners, shown.blended);
 }
 
 ObjectRenderer::Relight ObjectRenderer::relight_of(const PlacedObject& placed, const Camera& camera,
@@ -125,14 +151,21 @@ const gl::Program& ObjectRenderer::set_up(const std::vector<gl::Program>& progra
     }
     if (depth_ == ObjectDepth::kPixel) {
         program.set("near_of_depths", static_cast<float>(kNear / view.units_per_rig_unit));
+        program.set("to_viewpoint", appearance.depth_scale.to_viewpoint);
+        program.set("units_per_radius", appearance.depth_scale.units_per_radius);
     }
     return program;
 }
 
 void ObjectRenderer::draw(std::size_t node, const ObjectView& view, const Appearance& appearance) const {
     const Textures& textures = textures_[node];
-    textures.in_turns[textures.filled_last]->bind(0);
-    if (depth_ == ObjectDepth::kPixel) textures.depths[textures.filled_last]->bind(1);
+    if (textures.is_drawn) {
+        textures.drawn->bind_colours(0);
+        textures.drawn->bind_numbers(1);
+    } else {
+        textures.in_turns[textures.filled_last]->bind(0);
+        if (depth_ == ObjectDepth::kPixel) textures.depths[textures.filled_last]->bind(1);
+    }
     const bool there = appearance.opacity >= 1;  // objects that fade in write no depth
     if (textures.opaque) {
         gl::draw(set_up(programs_.opaque, view, appearance), *textures.opaque,

@@ -86,12 +86,14 @@ void main() {
 // and kSmooth (bilinear samples); unrolled loops halve the cost in software rendering.
 inline constexpr const char* kObjectFragment = R"(
 layout(binding = 0) uniform sampler2D picture;
-layout(binding = 1) uniform sampler2D depths;  // kPixelDepth: axial depth, 0 if none
+layout(binding = 1) uniform isampler2D depths;  // kPixelDepth: axial depth, q20, object radii; 0 if none
 uniform ivec2 picture_size;  // used part of the texture
 uniform mat3 picture_from_screen;
 uniform vec3 facing_depth;   // value in the depth buffer = dot(_, (x, y, 1))
 uniform vec3 foot_depth;
 uniform int from_above;
+uniform double to_viewpoint;  // engine::DepthScale
+uniform double units_per_radius;
 uniform float near_of_depths;  // value in the depth buffer = near_of_depths / depth
 uniform vec2 alphas;  // draws pixels with alpha in [x, y)
 uniform vec4 fog;  // colour; w: transmittance
@@ -120,8 +122,9 @@ void add(ivec2 at, float weight, float depth_of_picture) {
     float a = kOpaque ? weight : inside == at ? straight.a * weight : 0.0;
     sum += vec4(straight.rgb * a, a);
     if (kPixelDepth) {
-        float depth = texelFetch(depths, inside, 0).r;
-        if (depth > 0.0) nearness += a * depth_of_picture / depth;
+        int lambda = texelFetch(depths, inside, 0).r;
+        float depth = float((double(lambda) * 9.5367431640625e-07lf + to_viewpoint) * units_per_radius);
+        if (lambda != 0 && depth > 0.0) nearness += a * depth_of_picture / depth;
     }
 }
 void main() {

@@ -4,8 +4,9 @@
 
 #include "compositor/web/core/web_core.hpp"
 
-#include "compositor/gpu/shader/object_textures.hpp"
+#include "compositor/gpu/shader/photo_texels.hpp"
 #include "compositor/gpu/shader/reconstruction_shader.hpp"
+#include "compositor/gpu/shader/texture_layout.hpp"
 #include "compositor/gpu/shader/view_uniforms.hpp"
 #include "compositor/web/view/shader_inputs.hpp"
 
@@ -32,7 +33,7 @@ PreparedView prepared;
 ShaderView shader_view;
 std::vector<std::int32_t> shader_view_places;
 std::vector<compositor::CellPair> cells;
-PhotoTexels photo;
+compositor::PhotoTexels photo;
 std::string shader_text;
 
 engine::LinearForm next_form(std::span<const double>& values) {
@@ -196,7 +197,10 @@ WEB_EXPORT const char* web_shader_text(int which) {
 
 /// \return 1 if the object's textures are within the limits of WebGL
 WEB_EXPORT int web_check_textures(int max_side, int max_layers) {
-    return succeeded(rs::compositor::check_texture_limits(opened->object(), max_side, max_layers)) ? 1 : 0;
+    return succeeded(rs::compositor::check_texture_limits(
+               opened->object(), static_cast<int>(opened->object().views.size()), max_side, max_layers))
+               ? 1
+               : 0;
 }
 
 WEB_EXPORT int web_cell_rows(int ring) {
@@ -211,7 +215,7 @@ WEB_EXPORT const rs::compositor::CellPair* web_cells(int ring) {
 
 /// Decodes a loaded photo. \return its RGBA, row by row
 WEB_EXPORT const rs::Rgba8* web_photo(int number) {
-    photo = photo_texels(*opened, number);
+    photo = rs::compositor::photo_texels(opened->texels(), number, opened->object().width, opened->object().height);
     return photo.colours.data();
 }
 

@@ -6,23 +6,6 @@
 
 namespace rs::web {
 
-PhotoTexels photo_texels(const ObjectView& object, int photo) {
-    const int width = object.object().width;
-    const int height = object.object().height;
-    const engine::TexelStore& store = object.texels();
-    const engine::TexelStore::Reading reading = store.read();
-    store.ensure(photo, 0, width - 1);
-    PhotoTexels texels{Image<Rgba8>(width, height), Image<std::int8_t>(width, height)};
-    for (int column = 0; column < width; ++column) {
-        const std::int32_t start = store.column_start(photo, column);
-        for (int row = 0; row < height; ++row) {
-            texels.colours(column, row) = store.texels()[start + row];
-            texels.details(column, row) = store.details()[start + row];
-        }
-    }
-    return texels;
-}
-
 ShaderView ShaderInputs::prepare(const RaySpaceObject& object, const engine::ViewRegisters& registers) {
     const auto ring = static_cast<std::size_t>(registers.ring);
     const ShapeMap& shape = object.rings[ring].shape;

@@ -4,22 +4,12 @@
 
 #include "compositor/gpu/shader/view_setup.hpp"
 #include "compositor/web/view/object_view.hpp"
-#include "rayspace/image/image.hpp"
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace rs::web {
-
-/// A photo as textures.
-struct PhotoTexels {
-    Image<Rgba8> colours;
-    Image<std::int8_t> details;
-};
-
-/// Decodes a photo that is loaded.
-PhotoTexels photo_texels(const ObjectView& object, int photo);
 
 /// Inputs of one view.
 struct ShaderView {

@@ -27,6 +27,14 @@ Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& c
 /// RECONSTRUCTION.md at every pixel. Renderers require valid registers and do not check them.
 Status check_registers(const RaySpaceObject& object, const ViewRegisters& registers);
 
+/// Axial depth from the centre of a camera, in the units of the object's rig:
+/// float((lambda_q20 * 2^-20 + to_viewpoint) * units_per_radius), computed in double precision.
+struct DepthScale {
+    double to_viewpoint = 0;  // from the camera's centre, object radii: prepare_view moves distant viewpoints nearer
+    double units_per_radius = 1;
+};
+DepthScale depth_scale(const RaySpaceObject& object, const Camera& camera);
+
 /// Depth image of a rendered view in the units of the object's rig, like the tracer's depth channel: axial depth from
 /// the camera's centre, also if prepare_view moved a distant viewpoint nearer; 0 where alpha is 0.
 /// \param lambda_q20  from Renderer::render for the view of `camera`

@@ -21,12 +21,13 @@ Status CoreExecutor::evict(int slot) {
 
 Result<std::vector<ExecutedView>> CoreExecutor::render(const std::vector<SlotView>& views) {
     std::vector<ExecutedView> drawn;
-    for (const auto& [slot, registers, depth] : views) {
-        const auto found = renderers_.find(slot);
-        if (found == renderers_.end()) return no_object_in(slot);
+    for (const SlotView& wanted : views) {
+        const ViewRegisters& registers = wanted.registers;
+        const auto found = renderers_.find(wanted.slot);
+        if (found == renderers_.end()) return no_object_in(wanted.slot);
         ExecutedView& view = drawn.emplace_back();
         view.image = Image<Rgba8>(registers.width, registers.height);
-        if (depth) view.depth_q20 = Image<std::int32_t>(registers.width, registers.height);
+        if (wanted.depth) view.depth_q20 = Image<std::int32_t>(registers.width, registers.height);
         found->second->render(registers, view.image, view.depth_q20);
     }
     return drawn;

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -32,6 +33,7 @@ struct SlotView {
     int slot = 0;             ///< of the object, from Executor::load
     ViewRegisters registers;  ///< within the ranges of RECONSTRUCTION.md
     bool depth = true;        ///< depth is needed, if the executor has the trait
+    bool may_defer = false;   ///< the caller accepts ExecutedView::deferred in place of images
 };
 
 /// Error of a slot that holds no object.
@@ -39,10 +41,21 @@ inline Error no_object_in(int slot) {
     return Error{"slot " + std::to_string(slot) + " holds no object"};
 }
 
+/// A view that the caller renders in its own graphics context, so that its image stays in that context. Executors of a
+/// GPU derive from it.
+class DeferredView {
+public:
+    DeferredView() = default;
+    DeferredView(const DeferredView&) = delete;             ///< not copied
+    DeferredView& operator=(const DeferredView&) = delete;  ///< not copied
+    virtual ~DeferredView() = default;
+};
+
 /// A rendered view.
 struct ExecutedView {
-    Image<Rgba8> image;             ///< of the view's size
+    Image<Rgba8> image;             ///< of the view's size; empty if deferred
     Image<std::int32_t> depth_q20;  ///< axial, object radii, 0 where alpha is 0; empty if not needed or not supported
+    std::shared_ptr<const DeferredView> deferred = nullptr;  ///< only if SlotView::may_defer; null: see `image`
 };
 
 /// Renders views of objects. traits(), supports(), can_render() and as_rendered() may be called from any thread at any

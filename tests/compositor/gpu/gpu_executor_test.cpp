@@ -2,7 +2,9 @@
 
 #include "compositor/gpu/gpu_executor.hpp"
 
-#include "compositor/gpu/shader/object_textures.hpp"
+#include "compositor/gpu/gpu_renderer.hpp"
+#include "compositor/gpu/object_textures.hpp"
+#include "compositor/gpu/shader/texture_layout.hpp"
 #include "engine/conformance/run_vectors.hpp"
 #include "engine/core/definition/view_registers.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -38,7 +40,7 @@ TEST(GpuExecutor, MatchesTheConformanceVectors) {
 
 TEST(GpuExecutor, LoadsWithinItsMemory) {
     const RaySpaceObject object = test::ring_object({.views = 12});
-    const std::int64_t bytes = gpu_bytes(object);
+    const std::int64_t bytes = gpu_bytes(object, kMinPhotoLayers);
     const auto executor = gpu({.memory_bytes = 2 * bytes});
     if (!executor) GTEST_SKIP() << "no OpenGL 4.5";
     const auto first = executor->load(object);
@@ -57,12 +59,29 @@ TEST(GpuExecutor, LoadsWithinItsMemory) {
 
 TEST(GpuExecutor, RefusesByNameWhatExceedsItsMemory) {
     const RaySpaceObject object = test::ring_object({.views = 12});
-    const auto executor = gpu({.memory_bytes = gpu_bytes(object) - 1});
+    const auto executor = gpu({.memory_bytes = gpu_bytes(object, kMinPhotoLayers) - 1});
     if (!executor) GTEST_SKIP() << "no OpenGL 4.5";
     const Status supported = executor->supports(object);
     ASSERT_FALSE(supported.ok());
     EXPECT_NE(supported.error().message.find("ring: needs"), std::string::npos) << supported.error().message;
     EXPECT_FALSE(executor->load(object).ok());
+}
+
+TEST(GpuExecutor, DefersViewsOnlyWhereTheCallerAcceptsThem) {
+    const RaySpaceObject object = test::ring_object({.views = 12});
+    const auto executor = gpu();
+    if (!executor) GTEST_SKIP() << "no OpenGL 4.5";
+    const auto slot = executor->load(object);
+    ASSERT_TRUE(slot.ok() && slot->has_value());
+    const auto registers = engine::prepare_view(object, look_at_camera({0, 0, 3.5}, {0, 0, 0}, radians(40), 20, 20));
+    ASSERT_TRUE(registers.ok());
+    const auto views = executor->render(
+        {{.slot = **slot, .registers = *registers}, {.slot = **slot, .registers = *registers, .may_defer = true}});
+    ASSERT_TRUE(views.ok());
+    EXPECT_EQ((*views)[0].deferred, nullptr);
+    EXPECT_EQ((*views)[0].image.width(), 20);
+    EXPECT_NE(dynamic_cast<const DeferredGpuView*>((*views)[1].deferred.get()), nullptr);
+    EXPECT_TRUE((*views)[1].image.empty());
 }
 
 TEST(GpuExecutor, IsInTheTable) {

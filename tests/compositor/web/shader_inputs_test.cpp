@@ -2,6 +2,8 @@
 
 #include "compositor/web/view/shader_inputs.hpp"
 
+#include "compositor/gpu/shader/photo_texels.hpp"
+
 #include "engine/core/definition/texel_detail.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
@@ -33,7 +35,8 @@ TEST(ShaderInputs, PhotosAreThoseOfTheObject) {
     ASSERT_TRUE(opened) << opened.error().message;
     for (std::size_t view = 0; view < opened->decoded.images.size(); ++view) {
         const PlanarImage& image = opened->decoded.images[view];
-        const PhotoTexels texels = photo_texels(opened->view, static_cast<int>(view));
+        const compositor::PhotoTexels texels = compositor::photo_texels(opened->view.texels(), static_cast<int>(view),
+                                                                        opened->decoded.width, opened->decoded.height);
         ASSERT_EQ(texels.colours.width(), image.y.width());
         ASSERT_EQ(texels.colours.height(), image.y.height());
         for (int row = 0; row < image.y.height(); ++row) {

@@ -3,6 +3,7 @@
 #include "compositor/gl/draw.hpp"
 #include "engine/core/definition/view_registers.hpp"
 
+#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -33,7 +34,7 @@ Status ObjectRequestPass::run(FrameContext& frame) const {
     for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
         auto view = frame.nodes.view_of(i, frame.view.camera);
         if (!view) continue;
-        requests.push_back({frame.nodes[i].handle, view->camera, depths_});
+        requests.push_back({frame.nodes[i].handle, view->camera, depths_, may_defer_});
         frame.visible_nodes.push_back({i, *view});
     }
     frame.statistics.nodes_not_seen = static_cast<int>(frame.nodes.size() - frame.visible_nodes.size());
@@ -55,9 +56,10 @@ Status ObjectPass::run(FrameContext& frame) {
     frame.statistics.engine_wait_s = frame.clock.lap();
     for (std::size_t n = 0; n < frame.visible_nodes.size(); ++n) {
         const VisibleNode& node = frame.visible_nodes[n];
-        upload(node, rendered[n], frame);
+        RS_TRY(add_image(node, rendered[n], frame));
         frame.blended.push_back({node.view.plane_distance, true, [this, &node, &frame] { draw(node, frame); }});
     }
+    frame.target.drawn.resume();  // targets of objects may have begun
     add_placeholders(frame);
     frame.statistics.upload_s = frame.clock.lap();
     return {};
@@ -69,23 +71,38 @@ void ObjectPass::release_unloaded(const ObjectNodes& nodes) {
     }
 }
 
-void ObjectPass::upload(const VisibleNode& node, const engine::DrawnView& rendered, FrameContext& frame) {
-    Image<float> depths;
-    if (depth_ == ObjectDepth::kPixel) {
-        const RaySpaceObject& object = frame.nodes[node.index].object->object->renderer.object();
-        depths = engine::depth_image(object, node.view.camera, rendered.depth_q20);
-    }
-    const Image<Rgba8> cartoon =
-        cartoon_ ? as_cartoon(rendered.image, *cartoon_, node.view, frame.view.camera) : Image<Rgba8>();
-    objects_.upload(node.index, node.view, cartoon_ ? cartoon : rendered.image, depths);
-    const int width = rendered.image.width();
-    const int height = rendered.image.height();
+Status ObjectPass::add_image(const VisibleNode& node, const engine::DrawnView& rendered, FrameContext& frame) {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto* const deferred = dynamic_cast<const DeferredGpuView*>(rendered.deferred.get());
+    RS_TRY(deferred != nullptr ? render(node, *deferred) : upload(node, rendered, frame));
+    const double seconds = deferred == nullptr
+                               ? rendered.seconds
+                               : std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const int width = node.view.camera.width;
+    const int height = node.view.camera.height;
     FrameStatistics& statistics = frame.statistics;
-    statistics.nodes[node.index] = {true, width, height, rendered.seconds, rendered.by_board};
-    statistics.engine_s += rendered.seconds;
+    statistics.nodes[node.index] = {true, width, height, seconds, rendered.by_board};
+    statistics.engine_s += seconds;
     statistics.nodes_rendered += 1;
     statistics.nodes_by_board += rendered.by_board ? 1 : 0;
     statistics.pixels_rendered += std::int64_t{width} * height;
+    return {};
+}
+
+Status ObjectPass::upload(const VisibleNode& node, const engine::DrawnView& rendered, const FrameContext& frame) {
+    const Image<Rgba8> cartoon =
+        cartoon_ ? as_cartoon(rendered.image, *cartoon_, node.view, frame.view.camera) : Image<Rgba8>();
+    return objects_.upload(node.index, node.view, cartoon_ ? cartoon : rendered.image, rendered.depth_q20);
+}
+
+Status ObjectPass::render(const VisibleNode& node, const DeferredGpuView& deferred) {
+    if (!gpu_) {
+        RS_ASSIGN_OR_RETURN(gpu_, GpuRenderer::create({.memory_bytes = deferred.memory_bytes}));
+    }
+    RS_ASSIGN_OR_RETURN(const gl::IntegerTarget* const target, objects_.target(node.index, node.view));
+    RS_ASSIGN_OR_RETURN(const std::vector<PixelRect> visible, gpu_->draw(deferred.object, deferred.registers, *target));
+    objects_.set_drawn(node.index, node.view, visible);
+    return {};
 }
 
 void ObjectPass::draw(const VisibleNode& node, const FrameContext& frame) const {
@@ -96,12 +113,14 @@ void ObjectPass::draw(const VisibleNode& node, const FrameContext& frame) const 
             relight = ObjectRenderer::relight_of(placed, frame.view.camera, *scene);
         }
     }
+    const RaySpaceObject& object = frame.nodes[node.index].object->object->renderer.object();
     objects_.draw(node.index, node.view,
                   {.screen_px = {frame.target.drawn.width(), frame.target.drawn.height()},
                    .fog = frame.fog ? frame.fog->colour : glm::vec3(0),
                    .own_light = frame.fog ? fog_transmittance(*frame.fog, node.view.plane_distance) : 1.0F,
                    .opacity = frame.nodes[node.index].opacity,
-                   .relight = relight});
+                   .relight = relight,
+                   .depth_scale = engine::depth_scale(object, node.view.camera)});
 }
 
 void ObjectPass::add_placeholders(FrameContext& frame) const {

@@ -1,6 +1,7 @@
 #pragma once
 // Passes of ray-space objects: the first requests their images from the engine, the second adds them to the frame.
 
+#include "compositor/gpu/gpu_renderer.hpp"
 #include "compositor/viewer/drawing/object_cartoon.hpp"
 #include "compositor/viewer/drawing/object_renderer.hpp"
 #include "compositor/viewer/drawing/passes/frame_context.hpp"
@@ -10,6 +11,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace rs::compositor {
@@ -22,17 +24,19 @@ namespace rs::compositor {
 class ObjectRequestPass {
 public:
     /// \param depths request a depth per pixel
-    explicit ObjectRequestPass(bool depths) : depths_(depths) {}
+    /// \param may_defer views of a GPU are rendered by ObjectPass
+    ObjectRequestPass(bool depths, bool may_defer) : depths_(depths), may_defer_(may_defer) {}
     /// Fails if the engine rejects a view; the error names the object.
     Status run(FrameContext& frame) const;
 
 private:
     bool depths_;
+    bool may_defer_;
 };
 
-/// Waits for the engine's images of the visible objects, uploads them, and adds objects and placeholders to the blended
-/// draws, each at the depth of its reference plane (object_view.hpp).
-/// Requires a current gl::Context that outlives it; move-only.
+/// Waits for the engine's images of the visible objects, uploads them or renders them on the GPU, and adds objects and
+/// placeholders to the blended draws, each at the depth of its reference plane (object_view.hpp). Requires a current
+/// gl::Context that outlives it; move-only.
 class ObjectPass {
 public:
     static Result<ObjectPass> create(std::size_t nodes, ObjectDepth depth,
@@ -48,7 +52,9 @@ private:
           depth_(depth),
           cartoon_(std::move(cartoon)) {}
     void release_unloaded(const ObjectNodes& nodes);
-    void upload(const VisibleNode& node, const engine::DrawnView& rendered, FrameContext& frame);
+    Status add_image(const VisibleNode& node, const engine::DrawnView& rendered, FrameContext& frame);
+    Status upload(const VisibleNode& node, const engine::DrawnView& rendered, const FrameContext& frame);
+    Status render(const VisibleNode& node, const DeferredGpuView& deferred);
     void draw(const VisibleNode& node, const FrameContext& frame) const;
     void add_placeholders(FrameContext& frame) const;
 
@@ -56,6 +62,7 @@ private:
     PlaceholderRenderer placeholders_;
     ObjectDepth depth_;
     std::shared_ptr<const ObjectCartoon> cartoon_;  // null: the look of the photos
+    std::optional<GpuRenderer> gpu_;                // since the first deferred view
 };
 
 }  // namespace rs::compositor

@@ -1,6 +1,6 @@
 #pragma once
-// Textures of an object for the reconstruction shader (reconstruction_shader.hpp): the cells of its shape maps, sizes
-// and limits.
+// Layout of the textures of an object for the reconstruction shader (reconstruction_shader.hpp): the cells of its shape
+// maps, sizes and limits.
 //
 // A texel of cells holds the cells of two neighbouring bands. A column of `bands` cells is stored as bands + 2 pairs:
 // pair n holds bands n - 1 and n, of which those outside of the map are empty, and the last pair is empty.
@@ -23,12 +23,11 @@ std::vector<CellPair> cell_pairs(const ShapeMap& shape);
 /// Rows of the texture of cell_pairs().
 std::int64_t cell_texture_rows(const ShapeMap& shape);
 
-/// Memory of an object's textures: photos as RGBA with their detail, and cells.
-std::int64_t gpu_bytes(const RaySpaceObject& object);
+/// GPU memory of an object with `photos` photos in textures, as RGBA with their details, and its cells.
+std::int64_t gpu_bytes(const RaySpaceObject& object, int photos);
 
-/// Success if the textures of the object are within the limits, else an error that names the object.
-/// \param max_side    largest width and height of a texture
-/// \param max_layers  most layers of an array
-Status check_texture_limits(const RaySpaceObject& object, int max_side, int max_layers);
+/// Success if the textures of the object, with `photos` photos, are within the limits, else an error that names the
+/// object. \param max_side    largest width and height of a texture \param max_layers  most layers of an array
+Status check_texture_limits(const RaySpaceObject& object, int photos, int max_side, int max_layers);
 
 }  // namespace rs::compositor

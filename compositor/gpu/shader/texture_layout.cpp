@@ -1,4 +1,4 @@
-#include "compositor/gpu/shader/object_textures.hpp"
+#include "compositor/gpu/shader/texture_layout.hpp"
 
 #include "compositor/gpu/shader/reconstruction_shader.hpp"
 #include "rayspace/base/parallel_loop.hpp"
@@ -36,22 +36,20 @@ std::vector<CellPair> cell_pairs(const ShapeMap& shape) {
     return pairs;
 }
 
-std::int64_t gpu_bytes(const RaySpaceObject& object) {
-    std::int64_t bytes =
-        static_cast<std::int64_t>(object.views.size()) * object.width * object.height * kBytesPerPhotoTexel;
+std::int64_t gpu_bytes(const RaySpaceObject& object, int photos) {
+    std::int64_t bytes = std::int64_t{photos} * object.width * object.height * kBytesPerPhotoTexel;
     for (const Ring& ring : object.rings) {
         bytes += cell_texture_rows(ring.shape) * kCellTextureWidth * std::int64_t{sizeof(CellPair)};
     }
     return bytes;
 }
 
-Status check_texture_limits(const RaySpaceObject& object, int max_side, int max_layers) {
+Status check_texture_limits(const RaySpaceObject& object, int photos, int max_side, int max_layers) {
     const auto refused = [&](const std::string& what, std::int64_t count, int limit) {
         return Error{object.name + ": " + what + " " + std::to_string(count) + " exceeds the driver's limit of " +
                      std::to_string(limit) + "; encode it with fewer or smaller photos"};
     };
-    const auto views = static_cast<std::int64_t>(object.views.size());
-    if (views > max_layers) return refused("the number of photos", views, max_layers);
+    if (photos > max_layers) return refused("the number of photos", photos, max_layers);
     const int side = std::max(object.width, object.height);
     if (side > max_side) return refused("the side of the photos of", side, max_side);
     for (const Ring& ring : object.rings) {
