@@ -331,6 +331,7 @@ for (const [name, test] of Object.entries(tests)) {
     ++failed;
     console.error(`FAILED  ${name}: ${error.stack}`);
   }
+  for (const context of browser.contexts()) await context.close();
 }
 await browser.close();
 server.close();
