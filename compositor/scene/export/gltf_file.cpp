@@ -10,7 +10,7 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <numeric>
+#include <set>
 #include <utility>
 
 namespace rs::compositor {
@@ -212,13 +212,22 @@ private:
         }
     }
 
+    // Assimp requires different names of lights and of cameras, which are those of their nodes.
+    std::string unique_name(const std::string& name) {
+        const std::string base = name.empty() ? "viewpoint" : name;
+        std::string made = base;
+        for (int n = 2; !names_.insert(made).second; ++n) made = base + " " + std::to_string(n);
+        return made;
+    }
+
     void add_viewpoints() {
         for (const Viewpoint& viewpoint : scene_.viewpoints) {
             json camera = {
                 {"type", "perspective"},
                 {"perspective", {{"yfov", viewpoint.field_of_view_rad}, {"aspectRatio", 1}, {"znear", kCameraNear}}}};
             if (!viewpoint.description.empty()) camera["name"] = viewpoint.description;
-            json node = {{"camera", document_.append("cameras", std::move(camera))}, {"name", viewpoint.description}};
+            json node = {{"camera", document_.append("cameras", std::move(camera))},
+                         {"name", unique_name(viewpoint.description)}};
             set_matrix(node, viewpoint.world_from_camera);
             add_root(std::move(node));
         }
@@ -230,7 +239,8 @@ private:
         for (const Light& light : scene_.lights) {
             GltfLight converted = gltf_light(light, reach);
             for (std::string& warning : converted.warnings) warn(std::move(warning));
-            json node = {{"name", converted.light.value("name", "light")},
+            converted.light["name"] = unique_name(converted.light.value("name", "light"));
+            json node = {{"name", converted.light["name"]},
                          {"extensions", {{kLightsExtension, {{"light", lights.size()}}}}}};
             set_matrix(node, converted.world_from_light);
             lights.push_back(std::move(converted.light));
@@ -294,6 +304,7 @@ private:
     GltfMaterials materials_;
     json roots_ = json::array();
     std::map<const Mesh*, std::vector<std::pair<Material, std::size_t>>> meshes_;
+    std::set<std::string> names_;
     std::vector<std::string> warnings_;
 };
 

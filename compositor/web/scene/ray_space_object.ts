@@ -82,7 +82,7 @@ void main() {
   result = linearToOutputTexel(result);
 }`;
 
-/** What the object's last image was rendered for. */
+/** Eye and size for which the last image was rendered. */
 interface Rendered {
   eye: three.Vector3;
   focal: number;
@@ -156,11 +156,6 @@ export class RaySpaceObject3D extends three.Object3D {
   sphere(): three.Sphere {
     const radius = Math.hypot(this.bounds.radius, this.halfHeight) * this.matrixWorld.getMaxScaleOnAxis();
     return new three.Sphere(this.middle.applyMatrix4(this.matrixWorld), radius);
-  }
-
-  /** Images are there, and none is being rendered. */
-  get settled(): boolean {
-    return !this.rendering;
   }
 
   /** Farther objects are drawn first. */

@@ -22,7 +22,7 @@ export interface ObjectBounds {
   head: number;
 }
 
-/** What an eye point sees of an object. */
+/** An object in a scene, and the eye point that it is seen from. */
 export interface Sight {
   /** Column-major matrix of the object's node: a similarity. */
   matrix: ArrayLike<number>;

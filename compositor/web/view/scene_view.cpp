@@ -11,7 +11,7 @@
 namespace rs::web {
 namespace {
 
-// Of one object in a scene, which has several.
+// Limits of one object; a scene has several.
 constexpr std::uint64_t kSceneObjectCap_bytes = std::uint64_t{512} << 20;
 constexpr std::int64_t kSceneObjectBudget_bytes = std::int64_t{96} << 20;
 constexpr double kUnmeasured = 0.03;    // other photos may show this much beyond the bounds, object radii

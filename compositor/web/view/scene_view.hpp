@@ -40,8 +40,7 @@ public:
 
     [[nodiscard]] const compositor::ViewableObject& object() const { return *object_; }
 
-    /// Renders what the eye sees. \return false if it sees nothing: the object is smaller than half a pixel, or the eye
-    /// is on its axis; error if the sight is out of range
+    /// Renders what the eye sees. \return false if it sees nothing (view_of_object); error if the sight is out of range
     Result<bool> render(const SceneSight& sight, SceneView& rendered) const;
 
 private:
