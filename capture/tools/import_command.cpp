@@ -5,10 +5,14 @@
 #include "capture/photos/intake/photo_source.hpp"
 #include "capture/photos/intake/video/frame_selection.hpp"
 #include "capture/photos/report/import_report.hpp"
+#include "capture/posed/cameras/camera_file.hpp"
+#include "capture/posed/cameras/colmap_model.hpp"
+#include "capture/tools/posed_options.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/geometry/rig.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <nlohmann/json.hpp>
@@ -16,11 +20,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 namespace rs::capture {
@@ -40,6 +47,7 @@ struct ImportCommandLine {
     std::string known;
     bool equal_steps = false;
     bool principal_point = false;
+    PosedCommandLine posed;
     bool json = false;
     bool quiet = false;
 };
@@ -193,6 +201,76 @@ Status check_frames_usage(const ImportCommandLine& given) {
     return {};
 }
 
+// Names of the given options that posed photos do not have.
+std::vector<std::string> turn_options(const ImportCommandLine& given) {
+    const ImportOptions& import = given.import;
+    const std::pair<const char*, bool> options[] = {{"--calibration", given.calibration != "auto"},
+                                                    {"--board", !given.board.empty()},
+                                                    {"--equal-steps", given.equal_steps},
+                                                    {"--principal-point", given.principal_point},
+                                                    {"--fov", import.fov_deg.has_value()},
+                                                    {"--degrees-per-view", import.degrees_per_view.has_value()},
+                                                    {"--axis-x", import.axis_x_px.has_value()},
+                                                    {"--clockwise", given.clockwise},
+                                                    {"--counter-clockwise", given.counter_clockwise},
+                                                    {"--frames", import.frames.has_value()},
+                                                    {"--report", !given.report.empty()},
+                                                    {"--shadow", given.shadow != "remove"}};
+    std::vector<std::string> names;
+    for (const auto& [name, is_given] : options) {
+        if (is_given) names.emplace_back(name);
+    }
+    return names;
+}
+
+// Reads --known as values of one turn.
+Result<KnownFile> read_known_turn(const ImportCommandLine& given) {
+    RS_ASSIGN_OR_RETURN(const PhotoFolder folder, open_photo_folder(given.import.photos));
+    return read_known_file(given.known, {folder.shown_width, folder.shown_height});
+}
+
+Status check_known_orientation(const ImportCommandLine& given) {
+    const Result<PhotoFolder> folder = open_photo_folder(given.import.photos);
+    if (!folder || (folder->orientation == 1 && !folder->has_several_orientations())) return {};
+    return ambiguous_orientation_error(*folder, "--known " + given.known);
+}
+
+// True if --known has cameras anywhere: by request, as a COLMAP model, or because they fit no turn. Otherwise sets the
+// known values of `options`.
+Result<bool> has_posed_cameras(const ImportCommandLine& given, ImportOptions& options) {
+    if (given.known.empty()) {
+        if (!given.posed.is_requested()) return false;
+        return Error{"--posed, --up and --camera-axes: need the photos' cameras; give --known"};
+    }
+    std::error_code ignored;
+    const bool has_transforms =
+        std::filesystem::exists(rig_file(given.known), ignored) && std::filesystem::is_directory(given.known, ignored);
+    if (given.posed.is_requested() || (!has_transforms && find_colmap_model(given.known))) return true;
+    RS_TRY(check_known_orientation(given));
+    Result<KnownFile> turn = read_known_turn(given);
+    if (turn) {
+        options.known = std::move(turn).value();
+        return false;
+    }
+    if (!turn_options(given).empty() || !read_camera_file(given.known)) return turn.error();
+    return true;
+}
+
+Status import_posed(const ImportCommandLine& given, const ImportOptions& options) {
+    if (const auto unused = turn_options(given); !unused.empty()) {
+        return Error{listed(unused, unused.size()) + ": only for photos of one turn, not for the posed photos of " +
+                     given.known + "; leave it out"};
+    }
+    PosedImportOptions posed;
+    posed.photos = options.photos;
+    posed.cameras = given.known;
+    posed.output = options.output;
+    posed.segmentation = options.segmentation;
+    posed.max_side_px = options.max_side_px;
+    posed.force = options.force;
+    return run_posed_import(std::move(posed), given.posed, given.json, given.quiet);
+}
+
 Status run_import(const ImportCommandLine& given) {
     ImportOptions options = given.import;
     RS_TRY(check_frames_usage(given));
@@ -222,6 +300,8 @@ Status run_import(const ImportCommandLine& given) {
     for (const std::filesystem::path& output : {options.output, std::filesystem::path(given.report)}) {
         if (Status kept = refuse_overwriting_inputs(output, inputs); !kept) return kept;
     }
+    RS_ASSIGN_OR_RETURN(const bool is_posed, has_posed_cameras(given, options));
+    if (is_posed) return import_posed(given, options);
     std::optional<StagedFile> page;  // created before the import, so that an unusable path is reported at once
     if (!given.report.empty()) {
         RS_ASSIGN_OR_RETURN(StagedFile created, StagedFile::create(given.report));
@@ -230,14 +310,6 @@ Status run_import(const ImportCommandLine& given) {
     if (!given.board.empty()) {
         RS_ASSIGN_OR_RETURN(const BoardDesign board, parse_board_design(given.board));
         options.board = board;
-    }
-    if (!given.known.empty()) {
-        RS_ASSIGN_OR_RETURN(const PhotoFolder folder, open_photo_folder(options.photos));
-        if (folder.orientation != 1 || folder.has_several_orientations()) {
-            return ambiguous_orientation_error(folder, "--known " + given.known);
-        }
-        RS_ASSIGN_OR_RETURN(KnownFile known, read_known_file(given.known, {folder.shown_width, folder.shown_height}));
-        options.known = std::move(known);
     }
     options.known.known.equal_steps = given.equal_steps;
     options.known.known.estimate_principal_point = given.principal_point;
@@ -344,9 +416,10 @@ void add_calibration_options(CLI::App& command, ImportCommandLine& given) {
         "e.g. squares=9x9,square-mm=18");
     command
         .add_option("--known", given.known,
-                    "Known values, held constant: a transforms.json, a Middlebury *_par.txt, or OpenCV intrinsics "
-                    "(.yml, .yaml, .xml)")
+                    "Known values, held constant: a transforms.json, a COLMAP model, a Middlebury *_par.txt, or OpenCV "
+                    "intrinsics (.yml, .yaml, .xml). Cameras that form no turn are taken as posed photos")
         ->check(CLI::ExistingPath);
+    add_posed_options(command, given.posed);
     command.add_flag("--equal-steps", given.equal_steps, "All steps are equal; only their common size is estimated");
     command.add_flag("--principal-point", given.principal_point,
                      "Estimate the principal point, too (default: the image centre)");
@@ -403,6 +476,7 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
   rs-capture import photos/ -o shoe.set --report shoe.html
   rs-capture import photos/ -o shoe.set --segmentation-model isnet.onnx
   rs-capture import photos/ -o shoe.set --masks masks/
+  rs-capture import images/ -o toy.set --known sparse/0       photos taken by hand (docs/posed.md)
   rs-capture import turn.mp4 -o shoe.set        a video of one turn or more (docs/film.md))");
     command->callback([given, &run] { run = [given] { return run_import(*given); }; });
 }

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
     std::function<rs::Status()> run;
     rs::capture::add_synth_command(app, run);
     rs::capture::add_import_command(app, run);
+    rs::capture::add_export_command(app, run);
     rs::capture::add_board_command(app, run);
     rs::capture::add_luminaire_command(app, run);
     return rs::tool_main(app, argc, argv, run);

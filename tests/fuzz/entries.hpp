@@ -20,6 +20,9 @@ int fuzz_rig(const std::uint8_t* data, std::size_t size);
 /// Reads a Middlebury *_par.txt.
 int fuzz_middlebury(const std::uint8_t* data, std::size_t size);
 
+/// Reads the cameras and images of a COLMAP model, as text or binary.
+int fuzz_colmap(const std::uint8_t* data, std::size_t size);
+
 /// Reads a VRML or X3D world, depending on the first bytes; also after the header of VRML 1.0; as XML after a "<".
 int fuzz_vrml(const std::uint8_t* data, std::size_t size);
 int fuzz_vrml1(const std::uint8_t* data, std::size_t size);

@@ -75,6 +75,10 @@ TEST(FuzzReplay, Middlebury) {
     replay("middlebury", fuzz::fuzz_middlebury);
 }
 
+TEST(FuzzReplay, Colmap) {
+    replay("colmap", fuzz::fuzz_colmap, 2000);
+}
+
 TEST(FuzzReplay, Vrml) {
     replay("vrml", fuzz::fuzz_vrml);
 }

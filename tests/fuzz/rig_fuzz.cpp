@@ -1,3 +1,4 @@
+#include "capture/posed/cameras/camera_file.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "tests/fuzz/entries.hpp"
 
@@ -23,6 +24,8 @@ int fuzz_rig(const std::uint8_t* data, std::size_t size) {
         RS_CHECK(a.camera.fl_x == b.camera.fl_x && a.camera.fl_y == b.camera.fl_y);
         RS_CHECK(a.camera.cx == b.camera.cx && a.camera.cy == b.camera.cy);
         RS_CHECK(a.camera.world_from_camera == b.camera.world_from_camera);
+        const auto lens = capture::lens_distortion_of(rig->extras, a.extras, "input");
+        RS_CHECK(lens.ok() || lens.error().message.find('\n') == std::string::npos);
     }
     return 0;
 }

@@ -85,12 +85,6 @@ std::string_view take_line(std::string_view& text) {
     return line;
 }
 
-struct MiddleburyView {
-    std::string name;
-    std::array<double, 9> k{};  // row by row
-    glm::dmat4 world_from_camera{1.0};
-};
-
 Result<MiddleburyView> view_from(std::string_view line, const std::string& place) {
     Words words(line);
     MiddleburyView view;
@@ -129,11 +123,8 @@ Result<MiddleburyView> view_from(std::string_view line, const std::string& place
 
 Status set_lens(KnownInputs& known, const MiddleburyView& first, const std::string& where) {
     const auto& k = first.k;
-    if (std::abs(k[8] - 1) > 1e-9 || k[3] != 0 || k[6] != 0 || k[7] != 0) {
-        return Error{where + ": K is not of the form fx s cx, 0 fy cy, 0 0 1"};
-    }
+    RS_TRY(check_middlebury_lens(first, where));
     RS_ASSIGN_OR_RETURN(const auto f_px, common_focal_length(k[0], k[4], where));
-    if (std::abs(k[1]) > 1e-3 * f_px) return Error{where + ": K has skew, which is not supported"};
     known.f_px = f_px;
     known.principal_point = glm::dvec2(k[2] + 0.5, k[5] + 0.5);
     known.distortion = glm::dvec2(0);
@@ -161,7 +152,16 @@ Result<glm::dvec2> distortion_of(const nlohmann::json& extras, const std::string
 
 }  // namespace
 
-Result<KnownFile> middlebury_parameters_from(const std::string& text, const std::string& where) {
+Status check_middlebury_lens(const MiddleburyView& view, const std::string& where) {
+    const auto& k = view.k;
+    if (std::abs(k[8] - 1) > 1e-9 || k[3] != 0 || k[6] != 0 || k[7] != 0) {
+        return Error{where + ": K is not of the form fx s cx, 0 fy cy, 0 0 1"};
+    }
+    if (std::abs(k[1]) > 1e-3 * std::abs(k[0])) return Error{where + ": K has skew, which is not supported"};
+    return {};
+}
+
+Result<std::vector<MiddleburyView>> middlebury_views_from(const std::string& text, const std::string& where) {
     std::string_view rest = text;
     Words head(take_line(rest));
     const auto count = number_from(head.next());
@@ -172,15 +172,22 @@ Result<KnownFile> middlebury_parameters_from(const std::string& text, const std:
     for (int i = 0; i < static_cast<int>(*count); ++i) {
         RS_ASSIGN_OR_RETURN(auto view, view_from(take_line(rest), where + ": line " + std::to_string(i + 2)));
         views.push_back(std::move(view));
+    }
+    if (rest.find_first_not_of(" \t\r\n") != std::string_view::npos) {
+        return Error{where + ": has more lines than the " + std::to_string(views.size()) + " views that line 1 states"};
+    }
+    return views;
+}
+
+Result<KnownFile> middlebury_parameters_from(const std::string& text, const std::string& where) {
+    RS_ASSIGN_OR_RETURN(std::vector<MiddleburyView> views, middlebury_views_from(text, where));
+    for (std::size_t i = 1; i < views.size(); ++i) {
         for (std::size_t k = 0; k < 9; ++k) {
-            if (std::abs(views.back().k[k] - views[0].k[k]) > kSameIntrinsics * std::abs(views[0].k[0])) {
+            if (std::abs(views[i].k[k] - views[0].k[k]) > kSameIntrinsics * std::abs(views[0].k[0])) {
                 return Error{where + ": line " + std::to_string(i + 2) +
                              ": K differs from the first view's; all views of a turn must have one lens"};
             }
         }
-    }
-    if (rest.find_first_not_of(" \t\r\n") != std::string_view::npos) {
-        return Error{where + ": has more lines than the " + std::to_string(views.size()) + " views that line 1 states"};
     }
     KnownFile file;
     RS_TRY(set_lens(file.known, views[0], where));
@@ -191,6 +198,11 @@ Result<KnownFile> middlebury_parameters_from(const std::string& text, const std:
     }
     RS_TRY(set_turntable(file.known, cameras, where));
     return file;
+}
+
+Result<std::vector<MiddleburyView>> read_middlebury_views(const std::filesystem::path& path) {
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxMiddlebury_bytes));
+    return middlebury_views_from({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 
 Result<KnownFile> read_middlebury_parameters(const std::filesystem::path& path) {

@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -54,6 +55,20 @@ Result<KnownFile> middlebury_parameters_from(const std::string& text, const std:
 /// The same from a transforms.json (read_rig()). Its image size must equal `images` if that is known. k1 and k2 at its
 /// top level are used; other distortion coefficients must be 0.
 Result<KnownFile> read_known_rig(const std::filesystem::path& path, ImagePixels images = {});
+
+/// One view of a Middlebury *_par.txt.
+struct MiddleburyView {
+    std::string name;
+    std::array<double, 9> k{};  ///< row by row
+    glm::dmat4 world_from_camera{1.0};
+};
+
+/// All views of such a file, with lenses and poses of any kind. Error: another format.
+Result<std::vector<MiddleburyView>> read_middlebury_views(const std::filesystem::path& path);
+Result<std::vector<MiddleburyView>> middlebury_views_from(const std::string& text, const std::string& where);
+
+/// Error: K is not that of a camera without skew.
+Status check_middlebury_lens(const MiddleburyView& view, const std::string& where);
 
 /// Selects the reader by the name: a folder or *.json is a rig, *.yml, *.yaml and *.xml are OpenCV's, *.txt is
 /// Middlebury's.

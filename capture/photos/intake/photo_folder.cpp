@@ -121,18 +121,6 @@ Status read_headers(PhotoFolder& found) {
     return choose_orientations(found, infos);
 }
 
-void set_reduction(PhotoFolder& found, int max_side_px) {
-    found.width = found.shown_width;
-    found.height = found.shown_height;
-    found.reduction = photo_reduction(found.width, found.height, max_side_px);
-    if (found.reduction == 1) return;
-    // The reduction of a thin photo is limited so that each side keeps at least one pixel.
-    found.reduction = std::min(found.reduction, static_cast<double>(std::min(found.width, found.height)));
-    const auto whole = [&](int side) { return static_cast<int>(side / found.reduction + 1e-9); };
-    found.width = whole(found.width);
-    found.height = whole(found.height);
-}
-
 // The name up to its first number: "angle_-" of "angle_-30.jpg".
 std::string before_number(const std::filesystem::path& photo) {
     const std::string name = photo.filename().string();
@@ -180,6 +168,18 @@ void sort_photos(std::vector<std::filesystem::path>& photos) {
 
 bool is_image_name(const std::filesystem::path& name) {
     return extension_of(name) < kExtensions.size();
+}
+
+void set_working_size(PhotoFolder& folder, int max_side_px) {
+    folder.width = folder.shown_width;
+    folder.height = folder.shown_height;
+    folder.reduction = photo_reduction(folder.width, folder.height, max_side_px);
+    if (folder.reduction == 1) return;
+    // The reduction of a thin photo is limited so that each side keeps at least one pixel.
+    folder.reduction = std::min(folder.reduction, static_cast<double>(std::min(folder.width, folder.height)));
+    const auto whole = [&](int side) { return static_cast<int>(side / folder.reduction + 1e-9); };
+    folder.width = whole(folder.width);
+    folder.height = whole(folder.height);
 }
 
 std::string size_text(int width, int height) {
@@ -235,7 +235,7 @@ Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int m
     }
     std::sort(found.ignored.begin(), found.ignored.end());
     RS_TRY(read_headers(found));
-    set_reduction(found, max_side_px);
+    set_working_size(found, max_side_px);
     return found;
 }
 

@@ -102,6 +102,9 @@ inline constexpr int kMinSide_px = 64;
 /// message has both files and sizes).
 Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px = kMaxImageSide_px);
 
+/// Sets the working size of a folder with a given shown size, as open_photo_folder() does.
+void set_working_size(PhotoFolder& folder, int max_side_px);
+
 /// Rotates and mirrors stored pixels by the EXIF orientation, 1..8.
 Image<Rgba8> apply_orientation(Image<Rgba8> stored, int orientation);
 

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <functional>
 #include <optional>
+#include <utility>
 
 namespace rs::capture {
 namespace {
@@ -216,26 +217,42 @@ Result<MaskFolder> MaskFolder::open(const std::filesystem::path& folder, const P
     RS_CHECK(!photos.photos.empty() && photos.shown_width > 0 && photos.shown_height > 0);
     MaskFolder masks;
     masks.kind_ = kind;
-    masks.shown_ = {photos.shown_width, photos.shown_height};
     RS_TRY(masks.find_files(folder, photos));
-    RS_TRY(masks.check_sizes(folder, photos));
+    RS_TRY(masks.load(folder, photos, progress));
+    return masks;
+}
 
-    Survey survey{std::vector<MaskStatistics>(masks.files_.size())};
+Result<MaskFolder> MaskFolder::open_files(std::vector<std::filesystem::path> files, const std::filesystem::path& where,
+                                          const PhotoFolder& photos, MaskKind kind, Progress* progress) {
+    RS_CHECK(!files.empty() && files.size() == photos.photos.size());
+    MaskFolder masks;
+    masks.kind_ = kind;
+    masks.files_ = std::move(files);
+    RS_TRY(masks.load(where, photos, progress));
+    return masks;
+}
+
+// Surveys the masks of files_ and chooses their interpretation.
+Status MaskFolder::load(const std::filesystem::path& folder, const PhotoFolder& photos, Progress* progress) {
+    shown_ = {photos.shown_width, photos.shown_height};
+    RS_TRY(check_sizes(folder, photos));
+
+    Survey survey{std::vector<MaskStatistics>(files_.size())};
     // for_each_photo() is given bytes per pixel of the working size; masks are read in their own size.
     double most_pixels = 0;
-    for (const Size& size : masks.sizes_) most_pixels = std::max(most_pixels, 1.0 * size.width * size.height);
+    for (const Size& size : sizes_) most_pixels = std::max(most_pixels, 1.0 * size.width * size.height);
     const double bytes_per_px = std::ceil(kReadBytesPerPixel * most_pixels / (1.0 * photos.width * photos.height));
     RS_TRY(for_each_photo(photos, static_cast<int>(std::min(bytes_per_px, 1e9)), "reading masks", progress,
                           [&](std::size_t i) -> Status {
-                              RS_ASSIGN_OR_RETURN(const auto mask, read_image(masks.files_[i], kMaxPhotoSide_px));
+                              RS_ASSIGN_OR_RETURN(const auto mask, read_image(files_[i], kMaxPhotoSide_px));
                               survey.masks[i] = mask_statistics(mask);
                               return {};
                           }));
-    RS_TRY(masks.choose_channel(folder, survey));
-    masks.choose_codes(folder, survey);
-    RS_TRY(masks.check_content(folder, survey));
-    masks.note_grey(folder, survey);
-    return masks;
+    RS_TRY(choose_channel(folder, survey));
+    choose_codes(folder, survey);
+    RS_TRY(check_content(folder, survey));
+    note_grey(folder, survey);
+    return {};
 }
 
 Result<Image<std::uint8_t>> MaskFolder::read(std::size_t i) const {

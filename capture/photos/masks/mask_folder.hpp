@@ -45,6 +45,10 @@ public:
     static Result<MaskFolder> open(const std::filesystem::path& folder, const PhotoFolder& photos, MaskKind kind,
                                    Progress* progress = nullptr);
 
+    /// The same with given files, `files[i]` for photo i; `where` names their list in messages.
+    static Result<MaskFolder> open_files(std::vector<std::filesystem::path> files, const std::filesystem::path& where,
+                                         const PhotoFolder& photos, MaskKind kind, Progress* progress = nullptr);
+
     /// The mask of photo i, photos.shown_width x photos.shown_height: 255 where the object is and 0 elsewhere, nothing
     /// between for kBinary (a code of 128 counts as object). Thread-safe. Memory: that of read_image() and the mask.
     /// \return the errors of read_image(), and one where the file has changed its size since open().
@@ -66,6 +70,7 @@ private:
     struct Survey;
 
     Status find_files(const std::filesystem::path& folder, const PhotoFolder& photos);
+    Status load(const std::filesystem::path& folder, const PhotoFolder& photos, Progress* progress);
     Status check_sizes(const std::filesystem::path& folder, const PhotoFolder& photos);
     Status choose_channel(const std::filesystem::path& folder, const Survey& survey);
     void choose_codes(const std::filesystem::path& folder, const Survey& survey);

@@ -48,14 +48,16 @@ Status refuse_shadow(const SegmenterRequest& request, SegmenterKind kind) {
 
 Result<ChosenSegmenter> by_masks(const SegmenterRequest& request, const Intake& intake, Progress* progress) {
     RS_TRY(refuse_shadow(request, SegmenterKind::kMasks));
+    const MaskKind kind = request.masks_are_alpha ? MaskKind::kAlpha : MaskKind::kBinary;
     RS_ASSIGN_OR_RETURN(MaskFolder masks,
-                        MaskFolder::open(request.masks, intake.folder,
-                                         request.masks_are_alpha ? MaskKind::kAlpha : MaskKind::kBinary, progress));
+                        request.mask_files.empty()
+                            ? MaskFolder::open(request.masks, intake.folder, kind, progress)
+                            : MaskFolder::open_files(request.mask_files, request.masks, intake.folder, kind, progress));
     ChosenSegmenter chosen;
     chosen.notes = masks.notes();
     chosen.segmenter = std::make_shared<MaskFolderSegmenter>(std::move(masks), intake.folder);
     chosen.kind = SegmenterKind::kMasks;
-    chosen.reason = "--masks";
+    chosen.reason = request.mask_files.empty() ? "--masks" : "mask_path";
     chosen.background_share = 0;
     return chosen;
 }

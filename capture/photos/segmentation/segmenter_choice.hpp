@@ -31,8 +31,10 @@ enum class ShadowHandling { kRemove, kKeep };
 
 struct SegmenterRequest {
     SegmenterKind kind = SegmenterKind::kAuto;
-    BackgroundRequest background;   ///< --backdrop
-    std::filesystem::path masks;    ///< folder of mask files; empty: none
+    BackgroundRequest background;  ///< --backdrop
+    std::filesystem::path masks;   ///< folder of mask files; empty: none
+    /// [photo]: mask files, instead of a folder; `masks` then names the file that lists them. Empty: none.
+    std::vector<std::filesystem::path> mask_files{};
     bool masks_are_alpha = false;   ///< the masks' grey is the final opacity
     std::filesystem::path network;  ///< ONNX file; empty: none
     ShadowHandling shadow = ShadowHandling::kRemove;

@@ -1,0 +1,424 @@
+#include "capture/posed/posed_import.hpp"
+
+#include "capture/opencv/opencv_image.hpp"
+#include "capture/photos/intake/bounded_work.hpp"
+#include "capture/photos/intake/intake.hpp"
+#include "capture/photos/segmentation/foreground_image.hpp"
+#include "capture/photos/segmentation/segment_turn.hpp"
+#include "capture/posed/cameras/camera_file.hpp"
+#include "capture/posed/photo_match.hpp"
+#include "capture/posed/undistortion.hpp"
+#include "capture/posed/visual_hull.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/printable.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/file/file_reference.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/image_io/image_io.hpp"
+
+#include <glm/gtc/quaternion.hpp>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <set>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+namespace rs::capture {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kFewestPosed = 3;
+
+// A photo in the set, or one that shows no object: then its mask is empty.
+struct ImportedPhoto {
+    Camera camera;  // in the world of the cameras' file
+    HullView hull;
+    bool was_distorted = false;
+};
+
+// Photos of one size.
+struct PhotoGroup {
+    PhotoFolder folder;
+    std::vector<std::size_t> photos;  // [photo of the folder]: index in PhotoMatches::photos
+};
+
+std::vector<PhotoGroup> grouped_by_size(const PhotoMatches& matches, const PosedImportOptions& options) {
+    std::map<std::tuple<int, int, int>, PhotoGroup> groups;
+    for (std::size_t i = 0; i < matches.photos.size(); ++i) {
+        const PosedPhoto& photo = matches.photos[i];
+        const Camera& camera = photo.camera.camera;
+        PhotoGroup& group = groups[{camera.width, camera.height, photo.orientation}];
+        PhotoFolder& folder = group.folder;
+        folder.has_alpha = photo.has_alpha && (folder.has_alpha || folder.photos.empty());
+        folder.photos.push_back(photo.file);
+        folder.orientation = photo.orientation;
+        folder.shown_width = camera.width;
+        folder.shown_height = camera.height;
+        group.photos.push_back(i);
+    }
+    std::vector<PhotoGroup> found;
+    for (auto& [size, group] : groups) {
+        set_working_size(group.folder, options.max_side_px);
+        found.push_back(std::move(group));
+    }
+    return found;
+}
+
+// Files of mask_path; none if the file of cameras has no such key or another segmenter is requested.
+Result<std::vector<fs::path>> mask_files_of(const PhotoGroup& group, const PhotoMatches& matches,
+                                            const PosedImportOptions& options) {
+    const SegmenterRequest& request = options.segmentation;
+    const bool wants_masks = request.kind == SegmenterKind::kAuto || request.kind == SegmenterKind::kMasks;
+    std::vector<fs::path> files;
+    if (!request.masks.empty() || !wants_masks || request.background.kind) return files;
+    std::error_code ignored;
+    const fs::path beside =
+        fs::is_directory(options.cameras, ignored) ? options.cameras : options.cameras.parent_path();
+    for (const std::size_t i : group.photos) {
+        const std::string& mask = matches.photos[i].camera.mask_path;
+        if (mask.empty()) continue;
+        const auto file = resolve_reference(mask, beside);
+        if (!file || !fs::is_regular_file(*file, ignored)) {
+            return Error{printable(options.cameras.string() + ": mask_path '" + mask +
+                                   "' is not a file; add it, or give a folder by --masks")};
+        }
+        files.push_back(*file);
+    }
+    if (!files.empty() && files.size() != group.photos.size()) {
+        return Error{options.cameras.string() + ": " + std::to_string(group.photos.size() - files.size()) + " of " +
+                     std::to_string(group.photos.size()) + " frames have no mask_path; add it, or give --masks"};
+    }
+    return files;
+}
+
+// A folder of masks has one name per photo, so photos of one name in several folders would share a mask.
+Status check_mask_names(const PhotoMatches& matches, const PosedImportOptions& options) {
+    if (options.segmentation.masks.empty()) return {};
+    std::map<std::string, std::string> names;
+    for (const PosedPhoto& photo : matches.photos) {
+        const auto [same, is_new] = names.try_emplace(photo.file.filename().string(), photo.name);
+        if (!is_new) {
+            return Error{printable("--masks " + options.segmentation.masks.string() + ": " + same->second + " and " +
+                                   photo.name + " have one name; rename them, or give mask_path in transforms.json")};
+        }
+    }
+    return {};
+}
+
+Result<ChosenSegmenter> segmenter_of(const PhotoGroup& group, const PhotoMatches& matches,
+                                     const PosedImportOptions& options, Progress* progress) {
+    SegmenterRequest request = options.segmentation;
+    RS_ASSIGN_OR_RETURN(request.mask_files, mask_files_of(group, matches, options));
+    if (!request.mask_files.empty()) request.masks = options.cameras;
+    Intake intake;
+    intake.folder = group.folder;
+    RS_ASSIGN_OR_RETURN(intake.survey, survey_photos(intake.folder, progress));
+    RS_ASSIGN_OR_RETURN(ChosenSegmenter chosen, choose_segmenter(request, intake, options.photos.string(), progress));
+    if (chosen.kind == SegmenterKind::kBackground && chosen.background == BackgroundKind::kColour &&
+        request.background.kind != BackgroundKind::kColour) {
+        return Error{options.photos.string() +
+                     ": the background differs from photo to photo, as it does where the camera moves; give "
+                     "--segmentation-model FILE.onnx, --masks, or photos with alpha"};
+    }
+    return chosen;
+}
+
+// Lens of a photo in the working size of its folder.
+PosedCamera in_working_size(PosedCamera posed, const PhotoFolder& folder) {
+    Camera& camera = posed.camera;
+    const glm::dvec2 centre = folder.in_image({camera.cx, camera.cy});
+    camera.cx = centre.x;
+    camera.cy = centre.y;
+    camera.fl_x /= folder.reduction;
+    camera.fl_y /= folder.reduction;
+    camera.width = folder.width;
+    camera.height = folder.height;
+    return posed;
+}
+
+HullView hull_view_of(const Image<Rgba8>& image, const Camera& camera) {
+    cv::Mat1b alpha, reduced;
+    cv::extractChannel(mat_view(image.view()), alpha, 3);
+    const double scale = std::min(1.0, static_cast<double>(kHullMask_px) / std::max(image.width(), image.height()));
+    const cv::Size size(std::max(1, static_cast<int>(std::lround(image.width() * scale))),
+                        std::max(1, static_cast<int>(std::lround(image.height() * scale))));
+    cv::resize(alpha, reduced, size, 0, 0, cv::INTER_AREA);
+    HullView view{camera, {}};
+    cv::threshold(reduced, view.mask, 127, 255, cv::THRESH_BINARY);
+    const double by_x = static_cast<double>(size.width) / image.width();
+    const double by_y = static_cast<double>(size.height) / image.height();
+    view.camera.fl_x *= by_x;
+    view.camera.cx *= by_x;
+    view.camera.fl_y *= by_y;
+    view.camera.cy *= by_y;
+    view.camera.width = size.width;
+    view.camera.height = size.height;
+    return view;
+}
+
+// Segments and undistorts photo `i` of a group, and writes it as image `view` of the set.
+Result<ImportedPhoto> import_photo(const PhotoGroup& group, std::size_t i, const PosedCamera& posed,
+                                   const Segmenter& segmenter, const ForegroundParameters& parameters,
+                                   const fs::path& file) {
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photo(group.folder, i));
+    RS_ASSIGN_OR_RETURN(const Segmentation segmentation, segmenter.segment({i, photo.view()}));
+    Image<Rgba8> foreground = make_foreground_image(photo, segmentation, parameters);
+    TurnSilhouette silhouette(foreground.width(), foreground.height());
+    silhouette.add(foreground);
+    ImportedPhoto imported;
+    if (silhouette.visible().empty()) return imported;
+    RS_ASSIGN_OR_RETURN(imported.camera,
+                        undistorted_camera(posed, silhouette.visible(), group.folder.photos[i].string()));
+    imported.was_distorted = !posed.distortion.is_pinhole();
+    const Image<Rgba8> image = undistorted(posed, imported.camera, std::move(foreground));
+    HullView hull = hull_view_of(image, imported.camera);
+    if (cv::countNonZero(hull.mask) == 0) return imported;
+    imported.hull = std::move(hull);
+    RS_TRY(write_png(file, image));
+    return imported;
+}
+
+Result<std::vector<ImportedPhoto>> import_groups(const PhotoMatches& matches, const PosedImportOptions& options,
+                                                 const fs::path& set, PosedImportReport& report, Progress* progress) {
+    std::vector<ImportedPhoto> imported(matches.photos.size());
+    for (const PhotoGroup& group : grouped_by_size(matches, options)) {
+        report.sizes.push_back(size_text(group.folder.shown_width, group.folder.shown_height));
+        RS_ASSIGN_OR_RETURN(const ChosenSegmenter chosen, segmenter_of(group, matches, options, progress));
+        report.segmenter = chosen.kind;
+        report.notes.insert(report.notes.end(), chosen.notes.begin(), chosen.notes.end());
+        const auto work = [&](std::size_t i) -> Status {
+            const std::size_t view = group.photos[i];
+            const PosedCamera posed = in_working_size(matches.photos[view].camera, group.folder);
+            RS_ASSIGN_OR_RETURN(imported[view],
+                                import_photo(group, i, posed, *chosen.segmenter,
+                                             options.segmentation.parameters.foreground, set / set_image_name(view)));
+            return {};
+        };
+        RS_TRY(for_each_photo(group.folder, kSegmentBytesPerPixel, "segmenting", progress, work));
+    }
+    return imported;
+}
+
+Camera with_opencv_axes(Camera camera) {
+    camera.world_from_camera[1] = -camera.world_from_camera[1];
+    camera.world_from_camera[2] = -camera.world_from_camera[2];
+    return camera;
+}
+
+// Point at which the cameras look, after their axes are converted if they are OpenCV's.
+Result<glm::dvec3> find_target(std::vector<HullView>& views, bool is_uncertain, const PosedImportOptions& options,
+                               PosedImportReport& report) {
+    constexpr double kMost = 0.9;
+    const double wanted = kMost * static_cast<double>(views.size());
+    std::vector<HullView> converted = views;
+    for (HullView& view : converted) view.camera = with_opencv_axes(view.camera);
+    const std::string where = options.cameras.string() + ": ";
+    std::size_t in_front = 0;
+    for (const CameraAxes axes : {CameraAxes::kOpenGl, CameraAxes::kOpenCv}) {
+        if (!is_uncertain && axes == CameraAxes::kOpenCv) break;
+        if (is_uncertain && options.axes != CameraAxes::kAuto && options.axes != axes) continue;
+        std::vector<HullView>& tried = axes == CameraAxes::kOpenGl ? views : converted;
+        const Result<glm::dvec3> target = common_target(tried);
+        if (!target) return Error{where + target.error().message};
+        in_front = std::max(in_front, count_in_front(tried, *target));
+        if (static_cast<double>(count_in_front(tried, *target)) < wanted) continue;
+        if (axes == CameraAxes::kOpenCv) {
+            if (options.axes == CameraAxes::kAuto) {
+                report.notes.push_back(where + "camera axes are OpenCV's (Y down), by the direction to the object");
+            }
+            views = std::move(converted);
+        }
+        return target;
+    }
+    return Error{where + std::to_string(views.size() - in_front) + " of " + std::to_string(views.size()) +
+                 " cameras look away from the object; the poses must be camera-to-world, " +
+                 (is_uncertain ? "give --camera-axes opengl or opencv, " : "") + "or take these photos out"};
+}
+
+// Rotation from the world of the cameras' file to the set: Y up, the first camera beside the axis above +Z.
+glm::dmat3 set_from_world(const glm::dvec3& up, const glm::dvec3& centre, std::span<const Camera> cameras) {
+    constexpr double kMinBeside = 0.05;  // of its distance
+    glm::dvec3 z(0);
+    for (const Camera& camera : cameras) {
+        const glm::dvec3 off = camera.centre() - centre;
+        z = off - glm::dot(off, up) * up;
+        if (glm::length(z) > kMinBeside * glm::length(off)) break;
+    }
+    if (!(glm::length(z) > 0)) z = glm::cross(std::abs(up.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), up);
+    z = glm::normalize(z);
+    return glm::transpose(glm::dmat3(glm::cross(up, z), up, z));
+}
+
+nlohmann::json numbers(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+// JSON must be UTF-8, file names need not be.
+std::string utf8_name(const std::string& name) {
+    return nlohmann::json::parse(nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+Rig rig_of(const PhotoMatches& matches, const std::vector<std::size_t>& kept, std::span<const Camera> cameras,
+           const PosedImportReport& report) {
+    const glm::dmat3 turn = set_from_world(report.up.direction, report.origin, cameras);
+    Rig rig;
+    rig.object_radius = 1;
+    rig.extras["posed"] = true;
+    rig.extras["axis_note"] = "Y is up, the origin is the middle of the object's bounding cylinder";
+    nlohmann::json& made = rig.extras["photo_import"];
+    made["calibration"] = "posed";
+    made["segmenter"] = to_string(report.segmenter);
+    made["up"] = numbers(report.up.direction);
+    made["up_from"] = report.up.from;
+    made["origin"] = numbers(report.origin);
+    made["radius"] = report.radius;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        RigView view;
+        view.camera = cameras[i];
+        // Matrices from files are rotations within 1e-3; those of the set are within rounding.
+        const glm::dmat3 rotation =
+            glm::mat3_cast(glm::normalize(glm::quat_cast(turn * glm::dmat3(cameras[i].world_from_camera))));
+        const glm::dvec3 centre = turn * (cameras[i].centre() - report.origin) / report.radius;
+        view.camera.world_from_camera = glm::dmat4(rotation);
+        view.camera.world_from_camera[3] = glm::dvec4(centre, 1);
+        view.file_path = set_image_name(i);
+        view.extras["source_file"] = utf8_name(matches.photos[kept[i]].name);
+        rig.views.push_back(std::move(view));
+    }
+    return rig;
+}
+
+// Renames the images of the kept photos, so that their numbers have no gaps.
+Status close_gaps(const fs::path& set, const std::vector<std::size_t>& kept) {
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        if (kept[i] == i) continue;
+        std::error_code failure;
+        fs::rename(set / set_image_name(kept[i]), set / set_image_name(i), failure);
+        if (failure) return Error{set.string() + ": cannot be written (" + failure.message() + "); check the disk"};
+    }
+    return {};
+}
+
+// Names the photos whose masks have much that the other photos exclude.
+void note_beyond_hull(const std::vector<double>& shares, const std::vector<std::string>& names,
+                      PosedImportReport& report) {
+    constexpr double kMuch = 0.1;
+    std::vector<std::string> found;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        if (shares[i] > kMuch) found.push_back(names[i]);
+    }
+    if (found.empty()) return;
+    report.notes.push_back(printable("more than a tenth of the object in " + std::to_string(found.size()) +
+                                     (found.size() > 1 ? " photos" : " photo") +
+                                     " is background by the other photos: " + listed(found, 8) +
+                                     "; give --masks, or take the photos out"));
+}
+
+// Finds up, origin and radius. `views` are those of the photos `kept`.
+Status find_object(std::vector<HullView>& views, bool has_uncertain_axes, const PosedImportOptions& options,
+                   const std::vector<std::string>& names, PosedImportReport& report) {
+    RS_ASSIGN_OR_RETURN(const glm::dvec3 target, find_target(views, has_uncertain_axes, options, report));
+    std::vector<Camera> cameras;
+    for (const HullView& view : views) cameras.push_back(view.camera);
+    const std::string where = options.cameras.string() + ": ";
+    const Result<UpAxis> up = find_up(options.up, cameras, target);
+    if (!up) return Error{where + up.error().message};
+    report.up = *up;
+    report.notes.insert(report.notes.end(), up->notes.begin(), up->notes.end());
+    const Result<BoundingCylinder> object = carve_bounding_cylinder(views, target, up->direction);
+    if (!object) return Error{where + object.error().message};
+    if (!object->cameras_inside.empty()) {
+        std::vector<std::string> inside;
+        for (const std::size_t i : object->cameras_inside) inside.push_back(names[i]);
+        return Error{
+            printable(where + listed(inside, 3) + (inside.size() > 1 ? " are" : " is") +
+                      " inside the object's bounding cylinder; check masks and poses, or take the photos out")};
+    }
+    note_beyond_hull(object->beyond_hull, names, report);
+    report.origin = object->centre;
+    report.radius = object->radius;
+    report.height = object->height;
+    return {};
+}
+
+void note_left_out(PosedImportReport& report) {
+    const auto note = [&](const std::vector<std::string>& names, const std::string& fault) {
+        if (names.empty()) return;
+        report.notes.push_back(printable(std::to_string(names.size()) + (names.size() > 1 ? " photos " : " photo ") +
+                                         fault + ", left out: " + listed(names, 8)));
+    };
+    note(report.without_camera, "without a camera");
+    note(report.without_photo, "of the cameras' file not found");
+    note(report.without_object, "without an object");
+}
+
+Result<PosedImportReport> import_posed_checked(const PosedImportOptions& options, Progress* progress) {
+    RS_ASSIGN_OR_RETURN(const PosedModel model, read_camera_file(options.cameras));
+    if (!model.has_uncertain_axes && options.axes != CameraAxes::kAuto) {
+        return Error{"--camera-axes: " + options.cameras.string() + " has OpenCV's axes by definition; leave it out"};
+    }
+    RS_ASSIGN_OR_RETURN(PhotoMatches matches, match_photos(options.photos, model));
+    RS_TRY(check_mask_names(matches, options));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(options.output, "imported photos", options.force));
+    const fs::path set = staged.temporary_path();
+    std::error_code failure;
+    fs::create_directories(set / "images", failure);
+    if (failure) return Error{options.output.string() + ": cannot be written (" + failure.message() + ")"};
+
+    PosedImportReport report;
+    report.without_camera = std::move(matches.without_camera);
+    report.without_photo = std::move(matches.without_photo);
+    RS_ASSIGN_OR_RETURN(std::vector<ImportedPhoto> imported, import_groups(matches, options, set, report, progress));
+    std::vector<std::size_t> kept;
+    std::vector<HullView> hulls;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < imported.size(); ++i) {
+        if (imported[i].hull.mask.empty()) {
+            report.without_object.push_back(matches.photos[i].name);
+            continue;
+        }
+        kept.push_back(i);
+        names.push_back(matches.photos[i].name);
+        hulls.push_back(std::move(imported[i].hull));
+        report.undistorted += imported[i].was_distorted ? 1 : 0;
+    }
+    if (kept.size() < kFewestPosed) {
+        return Error{options.photos.string() + ": " + std::to_string(kept.size()) +
+                     " photos have a camera and show the object; at least " + std::to_string(kFewestPosed) +
+                     " are needed, better 30 or more from all around"};
+    }
+    RS_TRY(find_object(hulls, model.has_uncertain_axes, options, names, report));
+    note_left_out(report);
+    RS_TRY(close_gaps(set, kept));
+    std::vector<Camera> cameras;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        cameras.push_back(imported[kept[i]].camera);
+        cameras.back().world_from_camera = hulls[i].camera.world_from_camera;  // in OpenGL's axes
+    }
+    report.views = kept.size();
+    RS_TRY(write_rig(set / kRigFileName, rig_of(matches, kept, cameras, report)));
+    RS_TRY(staged.commit());
+    return report;
+}
+
+}  // namespace
+
+Result<PosedImportReport> import_posed_photos(const PosedImportOptions& options, Progress* progress) {
+    RS_TRY(refuse_overwriting_inputs(options.output, {options.photos, options.cameras, options.segmentation.masks}));
+    cv::setNumThreads(1);  // photos are processed in parallel
+    try {
+        return import_posed_checked(options, progress);
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& escaped) {  // thrown by OpenCV
+        return Error{options.photos.string() + ": the images cannot be processed (" + escaped.what() + ")"};
+    }
+}
+
+}  // namespace rs::capture

@@ -1,0 +1,122 @@
+// Command line of posed photos: `rs-capture import --known` with cameras anywhere, and `rs-capture export`.
+
+#include "capture/posed/cameras/colmap_model.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "tests/capture/posed/posed_scene.hpp"
+#include "tests/support/run_tool.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rs {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class PosedTool : public testing::Test {
+protected:
+    void SetUp() override {
+        fs::create_directories(folder_ / "images");
+        fs::create_directories(folder_ / "sparse" / "0");
+        std::vector<capture::PosedCamera> cameras = test::posed_cameras(10, 120, 90);
+        for (capture::PosedCamera& posed : cameras) {
+            ASSERT_TRUE(write_png(folder_ / "images" / posed.photo, test::posed_photo(posed)).ok());
+            posed.camera.world_from_camera = test::z_up_world().pose(posed.camera.world_from_camera);
+        }
+        const capture::ColmapText text = capture::colmap_text_of(cameras);
+        ASSERT_TRUE(write_file(folder_ / "sparse/0/cameras.txt", text.cameras).ok());
+        ASSERT_TRUE(write_file(folder_ / "sparse/0/images.txt", text.images).ok());
+    }
+    [[nodiscard]] std::string in(const std::string& name) const { return (folder_ / name).string(); }
+    [[nodiscard]] test::ToolRun capture_tool(const std::vector<std::string>& arguments) const {
+        return test::run_tool(folder_.path(), "rs-capture", arguments);
+    }
+    [[nodiscard]] test::ToolRun import(std::vector<std::string> more) const {
+        more.insert(more.begin(), {"import", in("images"), "-o", in("set"), "-q"});
+        return capture_tool(more);
+    }
+    void expect_refused(const std::vector<std::string>& more, const std::string& part) const {
+        const test::ToolRun run = import(more);
+        EXPECT_EQ(run.exit_code, 1) << run.err;
+        EXPECT_THAT(run.err, HasSubstr(part));
+        EXPECT_FALSE(fs::exists(folder_ / "set"));
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(PosedTool, ColmapModelToSetToColmapModel) {
+    const test::ToolRun run = import({"--known", folder_.path().string(), "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json.at("method"), "posed");
+    EXPECT_EQ(json.at("views"), 10);
+    EXPECT_EQ(json.at("up_from"), "horizons");
+    EXPECT_NEAR(json.at("up").at(2), 1, 1e-6);
+    EXPECT_EQ(json.at("undistorted"), 0);
+    const auto set = read_rig(folder_ / "set");
+    ASSERT_TRUE(set.ok());
+    EXPECT_EQ(set->extras.at("posed"), true);
+
+    const test::ToolRun exported =
+        capture_tool({"export", in("set"), "--colmap", "-o", in("out"), "--background", "white", "-q"});
+    ASSERT_EQ(exported.exit_code, 0) << exported.err;
+    EXPECT_THAT(exported.out, HasSubstr("10 views for COLMAP"));
+    const test::ToolRun again = capture_tool(
+        {"import", in("out/images"), "--known", in("out"), "--masks", in("out/masks"), "-o", in("again"), "-q"});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    const auto copy = read_rig(folder_ / "again");
+    ASSERT_TRUE(copy.ok());
+    ASSERT_EQ(copy->views.size(), 10U);
+    for (std::size_t i = 0; i < 10; ++i) {
+        const Camera &a = set->views[i].camera, &b = copy->views[i].camera;
+        EXPECT_EQ(a.fl_x, b.fl_x);
+        EXPECT_LT(glm::length(a.right() - b.right()), 0.05);
+        EXPECT_LT(glm::length(a.centre() - b.centre()), 0.1) << "masks are binary, so the object's size differs a bit";
+    }
+    EXPECT_EQ(capture_tool({"export", in("set"), "-o", in("none")}).exit_code, 1) << "no format";
+    EXPECT_EQ(capture_tool({"export", in("set"), "--colmap", "--nerfstudio", "-o", in("none")}).exit_code, 2);
+}
+
+TEST_F(PosedTool, OptionsOfATurnAreRefused) {
+    for (const std::vector<std::string>& option : {std::vector<std::string>{"--fov", "30"},
+                                                   {"--equal-steps"},
+                                                   {"--clockwise"},
+                                                   {"--board", "default"},
+                                                   {"--calibration", "nominal"},
+                                                   {"--axis-x", "60"},
+                                                   {"--report", in("page.html")},
+                                                   {"--shadow", "keep"},
+                                                   {"--principal-point"},
+                                                   {"--degrees-per-view", "10"},
+                                                   {"--counter-clockwise"}}) {
+        std::vector<std::string> arguments{"--known", in("sparse/0")};
+        arguments.insert(arguments.end(), option.begin(), option.end());
+        expect_refused(arguments, option.front() + ": only for photos of one turn");
+    }
+    expect_refused({"--posed"}, "give --known");
+    expect_refused({"--up", "0,1,0"}, "give --known");
+    expect_refused({"--known", in("sparse/0"), "--camera-axes", "opencv"}, "--camera-axes");
+    const test::ToolRun run = import({"--known", in("sparse/0"), "--up", "sideways"});
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, HasSubstr("--up"));
+}
+
+TEST_F(PosedTool, UpIsAsGiven) {
+    const test::ToolRun run = import({"--known", in("sparse/0"), "--up", "0,0,-1", "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto set = read_rig(folder_ / "set");
+    ASSERT_TRUE(set.ok());
+    EXPECT_LT(set->views[0].camera.up().y, -0.5) << "upside down";
+}
+
+}  // namespace
+}  // namespace rs
