@@ -125,7 +125,7 @@ async function open(server, src = "object.rso", orbit = "auto auto auto") {
   return page;
 }
 
-const happened = (page, type) => page.waitForFunction((type) => window.ended.includes(type), type, { timeout: 20000 });
+const happened = (page, type) => page.waitForFunction((type) => window.ended.includes(type), type, { timeout: 60000 });
 const messageOf = (page) =>
   page.evaluate(() => document.querySelector("ray-space").shadowRoot.querySelector("[part=message]").textContent);
 const hasView = (page) => page.evaluate(() => Boolean(document.querySelector("ray-space").shadowRoot.querySelector("canvas")));
