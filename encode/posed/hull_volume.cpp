@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kFarthest_px = 24;         // distances from contours are truncated
 constexpr double kMaxContradicted = 0.01;  // share of the object, at which mattes agree
-constexpr int kSearchVoxels = 80;          // of hulls that are only compared
+constexpr int kSearchVoxels = 64;          // of hulls that are only compared
 constexpr double kLeastSeen = 0.4;         // share of the photos whose frames contain a point of the object
 constexpr int kBlock_voxels = 8;
 constexpr int kMaxTolerated = 40;  // photos
@@ -30,7 +30,7 @@ public:
     explicit ContourDistance(const Image<Rgba8>& image) : inside_(image.width(), image.height()) {
         Image<float> outside(image.width(), image.height());
         for (std::size_t i = 0; i < outside.pixels().size(); ++i) {
-            // Of a pixel with partial coverage the contour is within it; of others half a pixel away at least.
+            // The contour passes through pixels with partial coverage, and others are half a pixel away at least.
             const float from_contour = static_cast<float>(image.pixels()[i].a) / 255.0F - 0.5F;
             inside_.pixels()[i] = from_contour > 0.48F ? kFarthest_px : std::max(from_contour, -0.5F);
             outside.pixels()[i] = from_contour < -0.48F ? kFarthest_px : std::max(-from_contour, -0.5F);
@@ -214,8 +214,9 @@ Result<CarvedHull> carve_hull(std::span<const PosedPhoto> photos, const HullOpti
         const auto rough_box = rough.bounds();
         if (!rough_box) continue;
         const glm::dvec3 rim(2 * everywhere.voxel);
-        SignedVolume finer = carve(
-            silhouettes, make_grid(rough_box->low - rim, rough_box->high + rim, 2 * kSearchVoxels), tolerance, nullptr);
+        SignedVolume finer =
+            carve(silhouettes, make_grid(rough_box->low - rim, rough_box->high + rim, 3 * kSearchVoxels / 2), tolerance,
+                  nullptr);
         const auto finer_box = finer.bounds();
         if (!finer_box) continue;
         const double contradicted = contradicted_share(silhouettes, finer);

@@ -285,7 +285,11 @@ Status run_build(const BuildArguments& arguments) {
 void add_build_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<BuildArguments>();
     CLI::App* command = app.add_subcommand("build", "Build a ray-space object from a capture set");
-    command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its images")->required();
+    command
+        ->add_option("SET", arguments->set,
+                     "capture set: a folder with transforms.json and its images; posed photos (cameras anywhere around "
+                     "the object) become rings of synthesized views")
+        ->required();
     command->add_option("-o,--output", arguments->output, "the object to write, OBJECT.rso")
         ->required()
         ->check(ends_in({".rso"}));
