@@ -82,6 +82,7 @@ PlaneMapOptions default_plane_map(MapKind kind) {
 }
 
 Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& options, Progress* progress) {
+    RS_CHECK(!set.posed);  // with_rings() comes first
     const std::vector<ViewRing> rings = find_rings(set.upright);
     RS_TRY(check_options(options.map, rings.size()));
     RS_TRY(check_irradiance(set));

@@ -42,8 +42,8 @@ struct BuiltObject {
     CompletedImages completed;          // to be assigned to CaptureSet::completed before encode_images()
 };
 
-/// Builds the object. Memory: the stored images (2.5 bytes per pixel), the map (2 bytes per cell), and one decoded
-/// image per thread.
+/// Builds the object of a set of rings (with_rings() makes one of a posed set). Memory: the stored images (2.5 bytes
+/// per pixel), the map (2 bytes per cell), and one decoded image per thread.
 Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& options, Progress* progress = nullptr);
 
 /// Writes the stored images and their rig as a capture set to `folder`, without loss. `force` is that of StagedFolder.

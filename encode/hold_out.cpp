@@ -81,4 +81,12 @@ int nearest_kept_view(const Rig& rig, const HoldOut& hold_out, int view) {
     return hold_out.kept[static_cast<std::size_t>(nearest)];
 }
 
+int nearest_kept_direction(const Rig& rig, const HoldOut& hold_out, int view) {
+    RS_CHECK(!hold_out.kept.empty());
+    const auto direction = [&](int n) {
+        return glm::normalize(rig.views[static_cast<std::size_t>(n)].camera.centre());
+    };
+    return *std::ranges::max_element(hold_out.kept, {}, [&](int n) { return glm::dot(direction(n), direction(view)); });
+}
+
 }  // namespace rs::encode

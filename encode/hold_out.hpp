@@ -45,4 +45,7 @@ Result<HoldOut> choose_hold_out(const Rig& rig, int every, const std::string& wh
 /// elevation; of two equally near views, the first in turning order.
 int nearest_kept_view(const Rig& rig, const HoldOut& hold_out, int view);
 
+/// The kept view from the direction most similar to that of `view`, seen from the origin; for posed cameras.
+int nearest_kept_direction(const Rig& rig, const HoldOut& hold_out, int view);
+
 }  // namespace rs::encode

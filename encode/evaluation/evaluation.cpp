@@ -1,5 +1,6 @@
 #include "encode/evaluation/evaluation.hpp"
 
+#include "encode/posed/posed_rings.hpp"
 #include "engine/core/definition/view_registers.hpp"
 #include "engine/core/fast/renderer.hpp"
 #include "rayspace/base/parallel.hpp"
@@ -19,16 +20,31 @@ constexpr Method kMethods[] = {Method::kPhoto, Method::kPlane, Method::kShape};
 // Renders a view of the rig by one method.
 using RenderFunction = std::function<Result<Image<Rgba8>>(int view)>;
 
-Result<engine::Renderer> renderer_of_kept(const CaptureSet& set, const HoldOut& hold_out, MapKind kind, int planes,
-                                          Progress* progress) {
+// The kept views as a set of rings.
+struct KeptViews {
+    CaptureSet set;
+    double seconds = 0;  // for synthesizing the rings of posed photos
+};
+
+double seconds_since(std::chrono::steady_clock::time_point begun) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+}
+
+Result<KeptViews> rings_of_kept(const CaptureSet& set, const HoldOut& hold_out, Progress* progress) {
+    const auto begun = std::chrono::steady_clock::now();
+    RS_ASSIGN_OR_RETURN(CaptureSet kept, with_rings(select_views(set, hold_out.kept), {}, progress));
+    return KeptViews{std::move(kept), seconds_since(begun)};
+}
+
+Result<engine::Renderer> renderer_of_kept(const CaptureSet& kept, MapKind kind, int planes, Progress* progress) {
     BuildOptions options;
     options.map = default_plane_map(kind);
     options.map.planes = planes;
     options.raymap = kind;
     options.name = "kept views";
-    RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(select_views(set, hold_out.kept), options, progress));
+    RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(kept, options, progress));
     // The renderer requires a validated object, which a file reader would return.
-    RS_TRY(validate_object(built.object, set.folder.string()));
+    RS_TRY(validate_object(built.object, kept.folder.string()));
     return engine::Renderer::create(std::move(built.object));
 }
 
@@ -67,18 +83,24 @@ Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Metho
 
 Result<MethodScores> score_photo(const CaptureSet& set, const HoldOut& hold_out, const EvaluationSink& sink,
                                  Progress* progress) {
-    const RenderFunction nearest = [&](int view) {
-        return read_upright_image(set, nearest_kept_view(set.upright, hold_out, view));
+    const RenderFunction nearest = [&](int view) -> Result<Image<Rgba8>> {
+        if (!set.posed) return read_upright_image(set, nearest_kept_view(set.upright, hold_out, view));
+        const int kept = nearest_kept_direction(set.upright, hold_out, view);
+        RS_ASSIGN_OR_RETURN(Image<Rgba8> image, read_upright_image(set, kept));
+        const Camera& wanted = set.upright.views[static_cast<std::size_t>(view)].camera;
+        if (image.width() == wanted.width && image.height() == wanted.height) return image;
+        return Error{image_path(set.folder, set.upright.views[static_cast<std::size_t>(kept)]).string() +
+                     ": its size differs from that of a held-out photo; use --methods shape"};
     };
     return score(set, hold_out, Method::kPhoto, nearest, sink, progress);
 }
 
-Result<MethodScores> score_object(const CaptureSet& set, const HoldOut& hold_out, Method method, int planes,
-                                  const EvaluationSink& sink, Progress* progress) {
+Result<MethodScores> score_object(const CaptureSet& set, const HoldOut& hold_out, const KeptViews& kept, Method method,
+                                  int planes, const EvaluationSink& sink, Progress* progress) {
     const auto begun = std::chrono::steady_clock::now();
     const MapKind kind = method == Method::kPlane ? MapKind::kPlane : MapKind::kShape;
-    RS_ASSIGN_OR_RETURN(const engine::Renderer renderer, renderer_of_kept(set, hold_out, kind, planes, progress));
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    RS_ASSIGN_OR_RETURN(const engine::Renderer renderer, renderer_of_kept(kept.set, kind, planes, progress));
+    const double seconds = kept.seconds + seconds_since(begun);
     const RenderFunction render = [&](int view) { return render_view(renderer, set, view); };
     Result<MethodScores> scores = score(set, hold_out, method, render, sink, progress);
     if (scores) scores->build_seconds = seconds;
@@ -123,11 +145,16 @@ Result<std::vector<MethodScores>> evaluate(const CaptureSet& set, const HoldOut&
                                            const EvaluationOptions& options, const EvaluationSink& sink,
                                            Progress* progress) {
     std::vector<MethodScores> all;
+    std::optional<KeptViews> kept;
+    if (std::ranges::any_of(options.methods, [](Method method) { return method != Method::kPhoto; })) {
+        RS_ASSIGN_OR_RETURN(KeptViews made, rings_of_kept(set, hold_out, progress));
+        kept = std::move(made);
+    }
     for (const Method method : options.methods) {
         RS_ASSIGN_OR_RETURN(MethodScores scores,
                             method == Method::kPhoto
                                 ? score_photo(set, hold_out, sink, progress)
-                                : score_object(set, hold_out, method, options.planes, sink, progress));
+                                : score_object(set, hold_out, *kept, method, options.planes, sink, progress));
         all.push_back(std::move(scores));
     }
     return all;

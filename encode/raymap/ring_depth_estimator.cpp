@@ -54,6 +54,26 @@ Image<float> depths_at(Image<float> levels, const DepthRange& range) {
     return levels;
 }
 
+// Converts axial depths in the rig's units at full size to distances from the foot of each working pixel's ray: the
+// nearest depth of the pixel's block.
+Image<float> known_depths(const WorkView& view, const Image<float>& axial, int reduction, double object_radius) {
+    Image<float> depths(view.height, view.width, kNoDepth);
+    for (int column = 0; column < view.width; ++column) {
+        const HorizontalRay ray = view.ray_of(column + 0.5);
+        for (int row = 0; row < view.height; ++row) {
+            float nearest = 0;
+            for (int i = 0; i < reduction * reduction; ++i) {
+                const float depth = axial(column * reduction + i % reduction, row * reduction + i / reduction);
+                if (depth > 0 && (nearest == 0 || depth < nearest)) nearest = depth;
+            }
+            if (nearest == 0 || view.at(column, row).a < kInside) continue;
+            depths(row, column) = static_cast<float>(
+                static_cast<double>(nearest) / object_radius * ray.horizontal_per_axial - ray.to_foot);
+        }
+    }
+    return depths;
+}
+
 double contradicted_by(const VisualHull& hull, const std::vector<const WorkView*>& views) {
     return inconsistent_share(views, hull, range_of(kHullLevels));
 }
@@ -189,10 +209,14 @@ Result<std::optional<Image<Rgba8>>> RingDepthEstimator::paint_part(std::size_t n
     return std::optional(std::move(painter).image());
 }
 
-Status RingDepthEstimator::match_colors(Progress* progress) {
+void RingDepthEstimator::sample_hull() {
     sampled_hull_ = sampled(silhouettes_agree_ ? VisualHull(silhouettes(adjacent_), margin_px_) : std::move(*hull_),
                             kHullSpacing_px);
     hull_.reset();
+}
+
+Status RingDepthEstimator::match_colors(Progress* progress) {
+    sample_hull();
     return estimate_depths("depth", progress, true);
 }
 
@@ -230,6 +254,16 @@ Status RingDepthEstimator::enforce_consistency(Progress* progress, std::vector<D
         views_[n].occluders = find_occluders(views_[n], texture_[n], neighbours_of(static_cast<int>(n)).beside);
     });
     return {};
+}
+
+void RingDepthEstimator::use_known_depths() {
+    sample_hull();
+    for_each_index(views_.size(), [&](std::size_t n) {
+        DepthView& view = views_[n];
+        const SynthesizedView& known = *set_.synthesized[static_cast<std::size_t>(ring_.views[n])];
+        view.depth = known_depths(view.view, known.depth, reduction_, set_.upright.object_radius);
+        view.occluders = Image<std::uint8_t>(view.depth.width(), view.depth.height(), 1);
+    });
 }
 
 bool RingDepthEstimator::has_soft_pixels() const {

@@ -1,7 +1,9 @@
 #pragma once
 // Depth estimation for one ring of photos and one layer of surfaces. Its steps share the photos, their depth maps and
 // the visual hull, and run in this order: read_photos(), choose_hull(), complete_masks() and, if that has painted
-// anything, choose_hull() again, repair_silhouettes(), match_colors(), enforce_consistency(), make_shape().
+// anything, choose_hull() again, repair_silhouettes(), match_colors(), enforce_consistency(), make_shape(). Views with
+// a known surface (CaptureSet::synthesized) need read_photos(), choose_hull(), use_known_depths() and make_shape()
+// only.
 
 #include "encode/raymap/cost_volume.hpp"
 #include "encode/raymap/shape_map.hpp"
@@ -54,6 +56,9 @@ public:
     /// Appends a few evenly spaced depth maps to `samples`.
     Status enforce_consistency(Progress* progress, std::vector<DepthPreview>& samples);
 
+    /// Takes each view's depth from the set's synthesized views instead of estimating it. All depths may occlude.
+    void use_known_depths();
+
     /// True if any photo has soft coverage.
     [[nodiscard]] bool has_soft_pixels() const;
 
@@ -82,6 +87,7 @@ private:
     // The silhouettes of this ring and of others, repaired where they are.
     [[nodiscard]] std::vector<const WorkView*> silhouettes(const std::vector<const RingDepthEstimator*>& others) const;
     [[nodiscard]] std::unique_ptr<SampledHull> sampled(VisualHull hull, double spacing_px) const;
+    void sample_hull();
     Status estimate_depths(const char* label, Progress* progress, bool keep_costs);
     void choose_margin(const std::vector<const RingDepthEstimator*>& beside);
     [[nodiscard]] int tolerated(const std::vector<const WorkView*>& views) const {

@@ -239,20 +239,23 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
     const std::vector<DepthView>& ring = layers.front().ring;
     const double count = static_cast<double>(ring.size());
     LineGrid grid;
-    double scale = 0;
+    double scale = 0;  // px per object radius, along rows and columns
+    double scale_y = 0;
     for (const DepthView& source : ring) {
         grid.distance += glm::length(source.view.centre) / count;
         grid.height += source.view.centre_y / count;
         scale += source.view.fl_x / glm::length(source.view.centre) / count;
+        scale_y += source.view.fl_y / glm::length(source.view.centre) / count;
     }
     const HeightRange heights = height_range(layers, grid.distance, grid.height);
     const double cell = options.cell_px / scale;
+    const double band = options.cell_px / scale_y;
     map.p_cells = std::clamp(static_cast<int>(std::ceil(2 * kHalfWidth / cell)), 1, 4096);
     map.p_half_q20 = fixed_point(kHalfWidth, 20);
     map.p_cells_per_unit_q12 = fixed_point(map.p_cells / (2 * kHalfWidth), 12);
-    map.bands = std::clamp(static_cast<int>(std::ceil((heights.high - heights.low) / cell)) + 2, 1, 4096);
-    map.h_low_q20 = fixed_point(heights.low - cell, 20);
-    map.bands_per_unit_q12 = fixed_point(1 / cell, 12);
+    map.bands = std::clamp(static_cast<int>(std::ceil((heights.high - heights.low) / band)) + 2, 1, 4096);
+    map.h_low_q20 = fixed_point(heights.low - band, 20);
+    map.bands_per_unit_q12 = fixed_point(1 / band, 12);
     map.reference_distance_q20 = fixed_point(grid.distance, 20);
     map.reference_height_q20 = fixed_point(grid.height, 20);
     map.depth_low_q20 = fixed_point(-kHalfWidth, 20);
@@ -262,9 +265,9 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
     grid.p_cells = map.p_cells;
     grid.bands = map.bands;
     grid.p_low = -kHalfWidth;
-    grid.h_low = heights.low - cell;
+    grid.h_low = heights.low - band;
     grid.cells_per_unit = map.p_cells / (2 * kHalfWidth);
-    grid.bands_per_unit = 1 / cell;
+    grid.bands_per_unit = 1 / band;
     grid.fine = options.raster_points;
 
     std::uint32_t lines = 0;

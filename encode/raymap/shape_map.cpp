@@ -45,6 +45,13 @@ Result<ShapeMapOutput> add_shape_maps(const ShapeMapInput& input, const ShapeOpt
         }
     };
     choose_hulls();
+    if (!set.synthesized.empty()) {
+        for (std::size_t r = 0; r < rings.size(); ++r) {
+            estimators[r].use_known_depths();
+            object.rings[r].shape = estimators[r].make_shape({estimators[r].surfaces()}, object.rings[r].planes);
+        }
+        return found;
+    }
     CaptureSet whole = set;  // with completed masks
     const auto keep_completed = [&](int v, const Image<Rgba8>& image) {
         keep(v, image);

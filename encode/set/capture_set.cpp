@@ -166,6 +166,13 @@ Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress*
                                ": all cameras look away from the object; their axes are taken as OpenCV's (Y down)");
     }
     remove_repeated_frames(rig, set.file, set.warnings);
+    set.posed = is_posed(rig);
+    if (set.posed) {
+        RS_TRY(check_posed_views(rig, set.file));
+        set.captured = std::move(rig);
+        set.upright = set.captured;
+        return set;
+    }
     RS_TRY(check_views(rig, set.file));
     set.captured = std::move(rig);
     set.upright = set.captured;
@@ -221,6 +228,7 @@ std::string name_of(const CaptureSet& set) {
 
 Result<Image<Rgba8>> read_upright_image(const CaptureSet& set, int view) {
     if (const auto found = set.completed.find(view); found != set.completed.end()) return Image<Rgba8>(found->second);
+    if (!set.synthesized.empty()) return Image<Rgba8>(set.synthesized[static_cast<std::size_t>(view)]->image);
     Result<Image<Rgba8>> image = read_captured_image(set, view);
     if (!image || !set.resampled) return image;
     const auto i = static_cast<std::size_t>(view);
@@ -239,6 +247,10 @@ CaptureSet select_views(const CaptureSet& set, std::span<const int> views) {
     };
     choose(set.captured, chosen.captured);
     choose(set.upright, chosen.upright);
+    chosen.synthesized.clear();
+    for (const int view : views) {
+        if (!set.synthesized.empty()) chosen.synthesized.push_back(set.synthesized[static_cast<std::size_t>(view)]);
+    }
     chosen.completed.clear();
     for (std::size_t n = 0; n < views.size(); ++n) {
         const auto found = set.completed.find(views[n]);

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,19 +25,31 @@ namespace rs::encode {
 /// Completed images by view index: photos whose alpha matte lacked a part, with that part added.
 using CompletedImages = std::map<int, Image<Rgba8>>;
 
+/// A view made from other photos (encode/posed), with its surface's depth.
+struct SynthesizedView {
+    Image<Rgba8> image;
+    Image<float> depth;  // axial, in the rig's units; 0: no surface
+};
+
 struct CaptureSet {
     std::filesystem::path file;    // the transforms.json
     std::filesystem::path folder;  // of `file`
     Rig captured;                  // as read
     Rig upright;                   // cameras of the images returned by read_upright_image; object_radius is set
     bool resampled = false;
+    // True: the cameras are not rings, `upright` equals `captured`, and sizes may differ. To be encoded, the set needs
+    // with_rings() (encode/posed/posed_rings.hpp).
+    bool posed = false;
     int width = 0;  // px, of the upright images
     int height = 0;
+    // Views of a set whose images are not files, one per view of the rig; empty for photographed sets.
+    std::vector<std::shared_ptr<const SynthesizedView>> synthesized = {};
     CompletedImages completed = {};     // returned by read_upright_image() instead of the file's contents
     std::vector<std::string> warnings;  // of the checks (set_checks.hpp)
 };
 
-/// Reads transforms.json, computes the upright cameras, and measures the object radius from the silhouettes if the rig
+/// Reads transforms.json. A set of posed cameras (is_posed() of set_checks.hpp) is returned as it is. Of others,
+/// computes the upright cameras, and measures the object radius from the silhouettes if the rig
 /// does not contain it. Cameras may be pitched by up to 60 degrees. Images are read only if that requires them;
 /// otherwise missing images are detected by read_upright_image. Errors: no views, missing or unreadable images,
 /// differing sizes, lens distortion, a camera within the object radius, more images than fit into the machine's memory.

@@ -61,6 +61,19 @@ Camera with_opengl_axes(Camera camera) {
     return camera;
 }
 
+Status check_lenses(const Rig& rig, const std::filesystem::path& file) {
+    const std::string where = file.string();
+    if (rig.views.empty()) return Error{where + ": has no frames; a capture set needs at least one image"};
+    constexpr const char* kUndistort = "; undistort the images first";
+    if (const auto fault = lens_fault(rig.extras)) return Error{where + ": " + *fault + kUndistort};
+    for (std::size_t i = 0; i < rig.views.size(); ++i) {
+        if (const auto fault = lens_fault(rig.views[i].extras)) {
+            return Error{where + ": frame " + std::to_string(i) + ": " + *fault + kUndistort};
+        }
+    }
+    return {};
+}
+
 Status check_alpha(const Rig& rig, const std::filesystem::path& file) {
     for (const RigView& view : rig.views) {
         if (!mask_path(view).empty()) return {};
@@ -103,11 +116,27 @@ void remove_repeated_frames(Rig& rig, const std::filesystem::path& file, std::ve
     rig.views = std::move(kept);
 }
 
+bool is_posed(const Rig& rig) {
+    const auto stated = rig.extras.find(kPosedKey);
+    if (stated != rig.extras.end() && stated->is_boolean()) return stated->get<bool>();
+    const auto elevation_rad = [&](int view) {
+        const glm::dvec3 centre = rig.views[static_cast<std::size_t>(view)].camera.centre();
+        return std::atan2(centre.y, std::hypot(centre.x, centre.z));
+    };
+    return std::ranges::any_of(find_rings(rig), [&](const ViewRing& ring) {
+        const auto [low, high] = std::ranges::minmax(ring.views, {}, elevation_rad);
+        return elevation_rad(high) - elevation_rad(low) > radians(kRingSpread_deg);
+    });
+}
+
+Status check_posed_views(const Rig& rig, const std::filesystem::path& file) {
+    RS_TRY(check_lenses(rig, file));
+    return check_alpha(rig, file);
+}
+
 Status check_views(const Rig& rig, const std::filesystem::path& file) {
     const std::string where = file.string();
-    if (rig.views.empty()) return Error{where + ": has no frames; a capture set needs at least one image"};
-    constexpr const char* kUndistort = "; undistort the images first";
-    if (const auto fault = lens_fault(rig.extras)) return Error{where + ": " + *fault + kUndistort};
+    RS_TRY(check_lenses(rig, file));
     const Camera& first = rig.views.front().camera;
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         const RigView& view = rig.views[i];
@@ -116,9 +145,6 @@ Status check_views(const Rig& rig, const std::filesystem::path& file) {
                          "x" + std::to_string(view.camera.height) + " pixels, but the first image is " +
                          std::to_string(first.width) + "x" + std::to_string(first.height) +
                          "; all images of an object must have one size"};
-        }
-        if (const auto fault = lens_fault(view.extras)) {
-            return Error{where + ": frame " + std::to_string(i) + ": " + *fault + kUndistort};
         }
         if (std::abs(std::asin(std::clamp(view.camera.forward().y, -1.0, 1.0))) > radians(kSteepestPitch_deg)) {
             return Error{

@@ -22,6 +22,21 @@ bool convert_opencv_axes(Rig& rig);
 /// Removes frames with the image and the camera of an earlier frame, and reports images that several frames share.
 void remove_repeated_frames(Rig& rig, const std::filesystem::path& file, std::vector<std::string>& warnings);
 
+/// Top-level key of a rig: true if its cameras are not turntable rings.
+inline constexpr const char* kPosedKey = "posed";
+
+/// Widest range of elevations within a ring of find_rings(), which continues while gaps are small.
+inline constexpr double kRingSpread_deg = 15;
+
+/// True if the cameras are anywhere around the object: if the rig states so by kPosedKey, or has views at so many
+/// elevations that they are not rings.
+bool is_posed(const Rig& rig);
+
+/// The checks of posed cameras, whose sizes and elevations may differ.
+/// \return an error if there are no views, a lens is not a pinhole or distorts, or images have neither an alpha channel
+/// nor a mask
+Status check_posed_views(const Rig& rig, const std::filesystem::path& file);
+
 /// \param file the transforms.json, for errors
 /// \return an error if there are no views, sizes differ, a lens is not a pinhole or distorts, a camera is too steep, or
 /// images have neither an alpha channel nor a mask

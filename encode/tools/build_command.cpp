@@ -2,6 +2,7 @@
 
 #include "encode/build.hpp"
 #include "encode/encode_images.hpp"
+#include "encode/posed/posed_rings.hpp"
 #include "encode/report/build_report.hpp"
 #include "encode/report/stage_clock.hpp"
 #include "encode/set/capture_set.hpp"
@@ -22,6 +23,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace rs::encode {
 namespace {
@@ -229,7 +231,7 @@ Status run_build(const BuildArguments& arguments) {
     RS_ASSIGN_OR_RETURN(BuildOptions options, options_of(arguments));
 
     if (Status kept = refuse_overwriting_inputs(arguments.output, {arguments.set}); !kept) return kept;
-    RS_ASSIGN_OR_RETURN(CaptureSet set, open_capture_set(arguments.set, &progress));
+    RS_ASSIGN_OR_RETURN(CaptureSet opened, open_capture_set(arguments.set, &progress));
     // Check that the output files can be written before the long build.
     RS_TRY(StagedFile::create(arguments.output));
     std::optional<StagedFile> page;
@@ -237,6 +239,7 @@ Status run_build(const BuildArguments& arguments) {
         RS_ASSIGN_OR_RETURN(StagedFile created, StagedFile::create(arguments.report));
         page = std::move(created);
     }
+    RS_ASSIGN_OR_RETURN(CaptureSet set, with_rings(std::move(opened), {}, &progress));
     if (options.name.empty()) options.name = name_of(set);
     RS_ASSIGN_OR_RETURN(const std::optional<ImageGoal> goal, parse_goal(arguments.profile));
     options.raw_images = !goal.has_value();
@@ -282,7 +285,11 @@ Status run_build(const BuildArguments& arguments) {
 void add_build_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<BuildArguments>();
     CLI::App* command = app.add_subcommand("build", "Build a ray-space object from a capture set");
-    command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its images")->required();
+    command
+        ->add_option("SET", arguments->set,
+                     "capture set: a folder with transforms.json and its images; posed photos (cameras anywhere around "
+                     "the object) become rings of synthesized views")
+        ->required();
     command->add_option("-o,--output", arguments->output, "the object to write, OBJECT.rso")
         ->required()
         ->check(ends_in({".rso"}));

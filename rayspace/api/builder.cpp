@@ -2,6 +2,7 @@
 
 #include "encode/build.hpp"
 #include "encode/encode_images.hpp"
+#include "encode/posed/posed_rings.hpp"
 #include "encode/set/capture_set.hpp"
 #include "rayspace/api/internal/type_conversion.hpp"
 #include "rayspace/base/result.hpp"
@@ -43,7 +44,8 @@ encode::ImageGoal goal_of(const BuildOptions& options) {
 Result<BuiltObject> build_object(const std::filesystem::path& set, const BuildOptions& options) {
     RS_TRY(check(options));
     ProgressAdapter progress(options.progress);
-    RS_ASSIGN_OR_RETURN(encode::CaptureSet opened, encode::open_capture_set(set, &progress));
+    RS_ASSIGN_OR_RETURN(encode::CaptureSet captured, encode::open_capture_set(set, &progress));
+    RS_ASSIGN_OR_RETURN(encode::CaptureSet opened, encode::with_rings(std::move(captured), {}, &progress));
     encode::BuildOptions building;
     building.raymap = options.map == MapKind::kPlane ? encode::MapKind::kPlane : encode::MapKind::kShape;
     building.map = encode::default_plane_map(building.raymap);

@@ -1,0 +1,449 @@
+#include "encode/posed/photo_depth.hpp"
+
+#include "encode/raymap/semi_global.hpp"
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/parallel.hpp"
+#include "rayspace/base/parallel_loop.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace rs::encode {
+namespace {
+
+constexpr std::uint8_t kUnseen = 255;  // no cost: outside of the neighbour's frame
+
+// A photo at the working size.
+struct WorkPhoto {
+    Camera camera;
+    Image<Rgba8> image;
+    Image<float> luma;  // codes
+};
+
+WorkPhoto make_work_photo(const PosedPhoto& photo, int reduction) {
+    WorkPhoto work;
+    work.camera = photo.camera;
+    work.camera.width /= reduction;
+    work.camera.height /= reduction;
+    work.camera.fl_x /= reduction;
+    work.camera.fl_y /= reduction;
+    work.camera.cx /= reduction;
+    work.camera.cy /= reduction;
+    work.image = Image<Rgba8>(work.camera.width, work.camera.height);
+    work.luma = Image<float>(work.camera.width, work.camera.height);
+    for (int y = 0; y < work.camera.height; ++y) {
+        for (int x = 0; x < work.camera.width; ++x) {
+            glm::dvec4 sum{0};
+            for (int j = 0; j < reduction; ++j) {
+                for (int i = 0; i < reduction; ++i) {
+                    const Rgba8& p = photo.image(x * reduction + i, y * reduction + j);
+                    sum += glm::dvec4(p.r * p.a, p.g * p.a, p.b * p.a, p.a);
+                }
+            }
+            if (sum.w == 0) continue;
+            const glm::dvec3 mean = glm::dvec3(sum) / sum.w;
+            const auto code = [](double value) { return static_cast<std::uint8_t>(std::lround(value)); };
+            work.image(x, y) = {code(mean.r), code(mean.g), code(mean.b), code(sum.w / (reduction * reduction))};
+            work.luma(x, y) = static_cast<float>(0.3 * mean.r + 0.6 * mean.g + 0.1 * mean.b);
+        }
+    }
+    return work;
+}
+
+// Box of the pixels inside of the matte.
+ObjectBox box_of(const Image<Rgba8>& image) {
+    ObjectBox box{image.width(), image.height(), 0, 0};
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            if (image(x, y).a < kInside) continue;
+            box.left = std::min(box.left, x);
+            box.right = std::max(box.right, x + 1);
+            box.top = std::min(box.top, y);
+            box.bottom = std::max(box.bottom, y + 1);
+        }
+    }
+    return box;
+}
+
+double angle_between(const Camera& a, const Camera& b) {
+    return std::acos(std::clamp(glm::dot(glm::normalize(a.centre()), glm::normalize(b.centre())), -1.0, 1.0));
+}
+
+// Photos within the allowed angles, in directions as different as possible: each next one is the photo with the least
+// sum of its angle and of its nearness to those chosen.
+std::vector<int> choose_neighbours(std::span<const WorkPhoto> photos, int n, const PhotoDepthOptions& options) {
+    const auto camera = [&](int i) -> const Camera& { return photos[static_cast<std::size_t>(i)].camera; };
+    std::vector<int> near;
+    for (int i = 0; i < static_cast<int>(photos.size()); ++i) {
+        const double angle_deg = degrees(angle_between(camera(n), camera(i)));
+        if (i != n && angle_deg >= options.least_angle_deg && angle_deg <= options.most_angle_deg) near.push_back(i);
+    }
+    std::vector<int> chosen;
+    while (chosen.size() < static_cast<std::size_t>(options.neighbours) && !near.empty()) {
+        const auto badness = [&](int i) {
+            double sum = angle_between(camera(n), camera(i));
+            for (const int other : chosen) sum += 0.02 / (0.05 + angle_between(camera(i), camera(other)));
+            return sum;
+        };
+        const auto best = std::ranges::min_element(near, {}, badness);
+        chosen.push_back(*best);
+        near.erase(best);
+    }
+    return chosen;
+}
+
+// First and last level inside of the hull along a pixel's ray; count 0 where the ray misses it.
+struct Levels {
+    double low = 0, step = 1;  // axial depth of level 0, and per level
+    int count = 0;
+};
+
+// Sparse volume of the levels between the hull's entry and exit.
+CostVolume make_volume(const WorkPhoto& photo, const SignedVolume& hull, const ObjectBox& box, const Levels& levels) {
+    CostVolume volume;
+    volume.box = box;
+    volume.levels = levels.count;
+    volume.pixels.resize(static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height()));
+    const glm::dvec3 origin = photo.camera.centre();
+    const double margin = 1.5 * hull.grid().voxel;
+    std::size_t end = 0;
+    for (int x = box.left; x < box.right; ++x) {
+        for (int y = box.top; y < box.bottom; ++y) {
+            if (photo.image(x, y).a < kInside) continue;
+            const glm::dvec3 direction = photo.camera.ray(x + 0.5, y + 0.5);
+            const auto span = hull.clip(origin, direction);
+            const auto entry = span ? hull.intersect(origin, direction, *span) : std::nullopt;
+            if (!entry) continue;
+            const glm::dvec3 beyond = origin + span->to * direction;
+            const auto back = hull.intersect(beyond, -direction, {0, span->to - *entry});
+            const double exit = back ? span->to - *back : *entry;
+            const int first =
+                std::clamp(static_cast<int>((*entry - margin - levels.low) / levels.step), 0, levels.count - 1);
+            const int last =
+                std::clamp(static_cast<int>((exit + margin - levels.low) / levels.step) + 1, first, levels.count - 1);
+            PixelLevels& pixel = volume.pixels[static_cast<std::size_t>((x - box.left) * box.height() + y - box.top)];
+            pixel.begin = static_cast<std::uint32_t>(end);
+            pixel.first = static_cast<std::uint16_t>(first);
+            pixel.count = static_cast<std::uint16_t>(last - first + 1);
+            end += pixel.count;
+        }
+    }
+    volume.costs.assign(end, kMaxCost / 2);
+    return volume;
+}
+
+// Sums of the pixels that both photos show: their number, values, squares and products. Eight floats for SIMD.
+struct alignas(32) Moments {
+    std::array<float, 8> sums{};  // n, a, b, aa, bb, ab, 0, 0
+
+    void add(const Moments& other) {
+        for (std::size_t i = 0; i < 8; ++i) sums[i] += other.sums[i];
+    }
+    void subtract(const Moments& other) {
+        for (std::size_t i = 0; i < 8; ++i) sums[i] -= other.sums[i];
+    }
+    [[nodiscard]] std::uint8_t cost() const {
+        constexpr float kNoise = 9;    // variance, codes squared
+        constexpr float kOffset = 40;  // codes: photos of one exposure differ less
+        constexpr float kOffsetPart = 0.2F;
+        const float per = 1 / sums[0];
+        const float a = sums[1] * per;
+        const float b = sums[2] * per;
+        const float var_a = std::max(sums[3] * per - a * a, 0.0F) + kNoise;
+        const float var_b = std::max(sums[4] * per - b * b, 0.0F) + kNoise;
+        const float correlation = (sums[5] * per - a * b) / std::sqrt(var_a * var_b);
+        const float offset = std::min(std::abs(a - b) / kOffset, 1.0F);
+        const float cost = ((1 - kOffsetPart) * (1 - correlation) / 2 + kOffsetPart * offset) * kMaxCost;
+        return static_cast<std::uint8_t>(std::clamp(cost + 0.5F, 0.0F, static_cast<float>(kMaxCost)));
+    }
+};
+
+// Matching costs of one neighbour at one level, row by row with running sums over a square window.
+class PlaneMatcher {
+public:
+    PlaneMatcher(const WorkPhoto& photo, const ObjectBox& box, int window)
+        : photo_(photo), box_(box), radius_(window / 2), rows_(static_cast<std::size_t>(window)) {}
+
+    // Writes kUnseen, or kMaxCost where the neighbour is transparent, or the cost of the correlation, for the pixels of
+    // `active`, which is within the box.
+    void match(const WorkPhoto& neighbour, double depth, const ObjectBox& active, Image<std::uint8_t>& costs) {
+        const int left = std::max(active.left - radius_, box_.left);
+        const int right = std::min(active.right + radius_, box_.right);
+        const auto width = static_cast<std::size_t>(right - left);
+        for (auto& row : rows_) row.assign(width, Moments{});
+        columns_.assign(width, Moments{});
+        pixels_.resize(width);
+        states_.resize(rows_.size());
+        for (auto& row : states_) row.assign(width, kOutside);
+        const Plane plane = plane_at(neighbour.camera, depth, left);
+        for (int y = active.top - radius_; y < active.bottom + radius_; ++y) {
+            const auto slot = static_cast<std::size_t>(y - active.top + radius_) % rows_.size();
+            for (std::size_t x = 0; x < width; ++x) columns_[x].subtract(rows_[slot][x]);
+            if (y >= box_.top && y < box_.bottom) {
+                warp_row(neighbour, plane, left, y, states_[slot]);
+                sum_row(rows_[slot]);
+                for (std::size_t x = 0; x < width; ++x) columns_[x].add(rows_[slot][x]);
+            } else {
+                std::fill(rows_[slot].begin(), rows_[slot].end(), Moments{});
+            }
+            const int done = y - radius_;
+            if (done < active.top) continue;
+            const auto& states = states_[static_cast<std::size_t>(done - active.top + radius_) % rows_.size()];
+            for (int x = active.left; x < active.right; ++x) {
+                const auto i = static_cast<std::size_t>(x - left);
+                costs(x - box_.left, done - box_.top) = states[i] == kValid    ? columns_[i].cost()
+                                                        : states[i] == kHidden ? kUnseen
+                                                                               : static_cast<std::uint8_t>(kMaxCost);
+            }
+        }
+    }
+
+private:
+    static constexpr float kMiddle = 128;                     // subtracted from codes, for the precision of sums
+    enum State : std::uint8_t { kOutside, kHidden, kValid };  // kHidden: outside of the neighbour's frame
+
+    // Homogeneous pixel positions in the neighbour: of the first column of row 0, and per column and row.
+    struct Plane {
+        glm::dvec3 first, per_column, per_row;
+    };
+    [[nodiscard]] Plane plane_at(const Camera& to, double depth, int left) const {
+        const auto in_camera = [&](const glm::dvec3& v) {
+            const double z = glm::dot(v, to.forward());
+            return glm::dvec3(to.cx * z + to.fl_x * glm::dot(v, to.right()), to.cy * z - to.fl_y * glm::dot(v, to.up()),
+                              z);
+        };
+        const Camera& from = photo_.camera;
+        return {in_camera(from.centre() + depth * from.ray(left + 0.5, 0.5) - to.centre()),
+                in_camera(from.right() * (depth / from.fl_x)), in_camera(from.up() * (-depth / from.fl_y))};
+    }
+
+    // Samples the neighbour where its camera sees the points of the plane.
+    void warp_row(const WorkPhoto& neighbour, const Plane& plane, int left, int y, std::vector<State>& states) {
+        const Camera& to = neighbour.camera;
+        glm::dvec3 p = plane.first + static_cast<double>(y) * plane.per_row;
+        for (std::size_t i = 0; i < pixels_.size(); ++i, p += plane.per_column) {
+            pixels_[i] = Moments{};
+            states[i] = kOutside;
+            const int x = left + static_cast<int>(i);
+            if (photo_.image(x, y).a < kInside) continue;
+            const auto px = static_cast<float>(p.x / p.z) - 0.5F;
+            const auto py = static_cast<float>(p.y / p.z) - 0.5F;
+            if (p.z <= 0 || !(px >= 0 && py >= 0) || px >= static_cast<float>(to.width - 1) ||
+                py >= static_cast<float>(to.height - 1)) {
+                states[i] = kHidden;
+                continue;
+            }
+            const auto ix = static_cast<int>(px);
+            const auto iy = static_cast<int>(py);
+            const float fx = px - static_cast<float>(ix);
+            const float fy = py - static_cast<float>(iy);
+            if (neighbour.image(ix + (fx >= 0.5F ? 1 : 0), iy + (fy >= 0.5F ? 1 : 0)).a < kInside) continue;
+            const float* const upper = &neighbour.luma(ix, iy);
+            const float* const lower = upper + to.width;
+            const float above = upper[0] + fx * (upper[1] - upper[0]);
+            const float b = above + fy * (lower[0] + fx * (lower[1] - lower[0]) - above) - kMiddle;
+            const float a = photo_.luma(x, y) - kMiddle;
+            pixels_[i].sums = {1, a, b, a * a, b * b, a * b, 0, 0};
+            states[i] = kValid;
+        }
+    }
+
+    void sum_row(std::vector<Moments>& out) const {
+        Moments sum;
+        const auto radius = static_cast<std::size_t>(radius_);
+        const std::size_t width = pixels_.size();
+        for (std::size_t x = 0; x < std::min(radius, width); ++x) sum.add(pixels_[x]);
+        for (std::size_t x = 0; x < width; ++x) {
+            if (x + radius < width) sum.add(pixels_[x + radius]);
+            if (x > radius) sum.subtract(pixels_[x - radius - 1]);
+            out[x] = sum;
+        }
+    }
+
+    const WorkPhoto& photo_;
+    const ObjectBox& box_;
+    int radius_;
+    std::vector<std::vector<Moments>> rows_;  // summed along the row; the last `window` rows
+    std::vector<std::vector<State>> states_;
+    std::vector<Moments> columns_;  // sums of rows_
+    std::vector<Moments> pixels_;   // of one row
+};
+
+// Mean of the lower half of the neighbours' costs: a surface is occluded in some of them.
+std::uint8_t best_half(std::span<std::uint8_t> costs) {
+    std::ranges::sort(costs);
+    const auto seen = static_cast<std::size_t>(std::ranges::lower_bound(costs, kUnseen) - costs.begin());
+    if (seen == 0) return kMaxCost / 2;
+    const std::size_t used = (seen + 1) / 2;
+    int sum = 0;
+    for (std::size_t i = 0; i < used; ++i) sum += costs[i];
+    return static_cast<std::uint8_t>(sum / static_cast<int>(used));
+}
+
+class DepthSearch {
+public:
+    DepthSearch(std::span<const WorkPhoto> photos, const SignedVolume& hull, const PhotoDepthOptions& options)
+        : photos_(photos), hull_(hull), options_(options) {}
+
+    [[nodiscard]] Image<float> depth_of(int n, const std::vector<int>& neighbours) const {
+        const WorkPhoto& photo = photos_[static_cast<std::size_t>(n)];
+        Image<float> depth(photo.camera.width, photo.camera.height, 0.0F);
+        const ObjectBox box = box_of(photo.image);
+        if (neighbours.empty() || box.empty()) return depth;
+        const Levels levels = levels_of(photo, neighbours);
+        CostVolume volume = make_volume(photo, hull_, box, levels);
+        if (volume.costs.empty()) return depth;
+        fill(volume, photo, neighbours, levels);
+        const Image<float> found = regularize(photo, volume);
+        for (int y = 0; y < depth.height(); ++y) {
+            for (int x = 0; x < depth.width(); ++x) {
+                const float level = found(y, x);
+                if (!std::isnan(level))
+                    depth(x, y) = static_cast<float>(levels.low + static_cast<double>(level) * levels.step);
+            }
+        }
+        return depth;
+    }
+
+private:
+    // Levels over the hull's box, spaced by what the neighbour at the widest angle resolves.
+    [[nodiscard]] Levels levels_of(const WorkPhoto& photo, const std::vector<int>& neighbours) const {
+        double low = 1e30, high = -1e30;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 a = hull_.grid().low;
+            const glm::dvec3 b = hull_.grid().high();
+            const glm::dvec3 p((corner & 1) != 0 ? a.x : b.x, (corner & 2) != 0 ? a.y : b.y,
+                               (corner & 4) != 0 ? a.z : b.z);
+            const double depth = photo.camera.project(p).z;
+            low = std::min(low, depth);
+            high = std::max(high, depth);
+        }
+        low = std::max(low, 1e-3 * high);
+        double px_per_unit = 0;
+        for (const int i : neighbours) {
+            const Camera& other = photos_[static_cast<std::size_t>(i)].camera;
+            px_per_unit = std::max(
+                px_per_unit, std::sin(angle_between(photo.camera, other)) * other.fl_x / glm::length(other.centre()));
+        }
+        Levels levels;
+        levels.count =
+            std::clamp(static_cast<int>((high - low) * px_per_unit / options_.level_px), 16, options_.max_levels);
+        levels.low = low;
+        levels.step = (high - low) / (levels.count - 1);
+        return levels;
+    }
+
+    // The box of the pixels that have a level; empty if there are none.
+    static ObjectBox active_box(const CostVolume& volume, int level) {
+        const ObjectBox& box = volume.box;
+        ObjectBox active{box.right, box.bottom, box.left, box.top};
+        for (int x = box.left; x < box.right; ++x) {
+            for (int y = box.top; y < box.bottom; ++y) {
+                const PixelLevels& pixel = volume.of(x, y);
+                if (level < pixel.first || level >= pixel.first + pixel.count) continue;
+                active.left = std::min(active.left, x);
+                active.right = std::max(active.right, x + 1);
+                active.top = std::min(active.top, y);
+                active.bottom = std::max(active.bottom, y + 1);
+            }
+        }
+        return active;
+    }
+
+    void fill(CostVolume& volume, const WorkPhoto& photo, const std::vector<int>& neighbours,
+              const Levels& levels) const {
+        const ObjectBox& box = volume.box;
+        PlaneMatcher matcher(photo, box, options_.window_px);
+        std::vector<Image<std::uint8_t>> costs(neighbours.size(), Image<std::uint8_t>(box.width(), box.height()));
+        std::vector<std::uint8_t> one(neighbours.size());
+        for (int level = 0; level < levels.count; ++level) {
+            const ObjectBox active = active_box(volume, level);
+            if (active.empty()) continue;
+            for (std::size_t i = 0; i < neighbours.size(); ++i) {
+                const WorkPhoto& neighbour = photos_[static_cast<std::size_t>(neighbours[i])];
+                matcher.match(neighbour, levels.low + level * levels.step, active, costs[i]);
+            }
+            for (int x = active.left; x < active.right; ++x) {
+                for (int y = active.top; y < active.bottom; ++y) {
+                    const PixelLevels& pixel = volume.of(x, y);
+                    if (level < pixel.first || level >= pixel.first + pixel.count) continue;
+                    for (std::size_t i = 0; i < neighbours.size(); ++i) one[i] = costs[i](x - box.left, y - box.top);
+                    volume.costs[pixel.begin + static_cast<std::size_t>(level - pixel.first)] = best_half(one);
+                }
+            }
+        }
+    }
+
+    // Transposed, as semi_global_levels() returns it.
+    [[nodiscard]] static Image<float> regularize(const WorkPhoto& photo, const CostVolume& volume) {
+        WorkView view;
+        view.width = photo.image.width();
+        view.height = photo.image.height();
+        view.columns = Image<Rgba8>(view.height, view.width);
+        for (int y = 0; y < view.height; ++y) {
+            for (int x = 0; x < view.width; ++x) view.columns(y, x) = photo.image(x, y);
+        }
+        return semi_global_levels(view, volume, SmoothnessOptions{.small_step = 2, .large_step = 60});
+    }
+
+    std::span<const WorkPhoto> photos_;
+    const SignedVolume& hull_;
+    const PhotoDepthOptions& options_;
+};
+
+// Removes depths that fewer than `confirming` neighbours have within `tolerance`.
+Image<float> confirmed(const std::vector<PhotoDepth>& all, std::size_t n, const std::vector<int>& neighbours,
+                       double tolerance, int confirming) {
+    const PhotoDepth& own = all[n];
+    Image<float> kept(own.depth.width(), own.depth.height(), 0.0F);
+    for (int y = 0; y < kept.height(); ++y) {
+        for (int x = 0; x < kept.width(); ++x) {
+            const float depth = own.depth(x, y);
+            if (depth <= 0) continue;
+            const glm::dvec3 p = own.camera.centre() + static_cast<double>(depth) * own.camera.ray(x + 0.5, y + 0.5);
+            int votes = 0;
+            for (const int i : neighbours) {
+                const PhotoDepth& other = all[static_cast<std::size_t>(i)];
+                const glm::dvec3 seen = other.camera.project(p);
+                if (!(seen.z > 0 && seen.x >= 0 && seen.y >= 0 && seen.x < other.depth.width() &&
+                      seen.y < other.depth.height()))
+                    continue;
+                const auto there = static_cast<double>(other.depth(static_cast<int>(seen.x), static_cast<int>(seen.y)));
+                if (there > 0 && std::abs(there - seen.z) <= tolerance) ++votes;
+            }
+            if (votes >= std::min(confirming, static_cast<int>(neighbours.size()))) kept(x, y) = depth;
+        }
+    }
+    return kept;
+}
+
+}  // namespace
+
+Result<std::vector<PhotoDepth>> estimate_photo_depths(std::span<const PosedPhoto> photos, const SignedVolume& hull,
+                                                      const PhotoDepthOptions& options, Progress* progress) {
+    std::vector<WorkPhoto> work(photos.size());
+    for_each_index(photos.size(), [&](std::size_t n) {
+        const int longest = std::max(photos[n].image.width(), photos[n].image.height());
+        work[n] = make_work_photo(photos[n], (longest + options.working_size_px - 1) / options.working_size_px);
+    });
+    std::vector<std::vector<int>> neighbours(photos.size());
+    std::vector<PhotoDepth> depths(photos.size());
+    const DepthSearch search(work, hull, options);
+    RS_TRY(for_each_in_parallel(static_cast<int>(photos.size()), "depth of photos", progress, [&](int i) -> Status {
+        const auto n = static_cast<std::size_t>(i);
+        neighbours[n] = choose_neighbours(work, i, options);
+        depths[n] = {work[n].camera, search.depth_of(i, neighbours[n])};
+        return {};
+    }));
+    std::vector<Image<float>> kept(photos.size());
+    for_each_index(photos.size(), [&](std::size_t n) {
+        kept[n] = confirmed(depths, n, neighbours[n], options.agreement * hull.grid().voxel, options.confirming);
+    });
+    for (std::size_t n = 0; n < depths.size(); ++n) depths[n].depth = std::move(kept[n]);
+    return depths;
+}
+
+}  // namespace rs::encode

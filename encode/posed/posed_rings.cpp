@@ -1,0 +1,78 @@
+#include "encode/posed/posed_rings.hpp"
+
+#include "encode/posed/depth_fusion.hpp"
+#include "encode/set/set_checks.hpp"
+#include "rayspace/base/parallel.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rs::encode {
+namespace {
+
+Result<std::vector<PosedPhoto>> read_photos(const CaptureSet& set, Progress* progress) {
+    std::vector<PosedPhoto> photos(set.captured.views.size());
+    const int count = static_cast<int>(photos.size());
+    RS_TRY(for_each_in_parallel(count, "photos", progress, [&](int i) -> Status {
+        const auto n = static_cast<std::size_t>(i);
+        const RigView& view = set.captured.views[n];
+        RS_ASSIGN_OR_RETURN(Image<Rgba8> image, read_upright_image(set, i));
+        photos[n] = {image_path(set.folder, view).string(), view.camera, std::move(image)};
+        return {};
+    }));
+    return photos;
+}
+
+Result<SignedVolume> reconstruct_surface(std::span<const PosedPhoto> photos, const PosedOptions& options,
+                                         Progress* progress) {
+    RS_ASSIGN_OR_RETURN(const CarvedHull hull, carve_hull(photos, options.hull, progress));
+    RS_ASSIGN_OR_RETURN(const std::vector<PhotoDepth> depths,
+                        estimate_photo_depths(photos, hull.volume, options.depth, progress));
+    return fuse_depths(hull.volume, depths, progress);
+}
+
+std::string summary(std::size_t photos, const RingPlan& plan) {
+    const auto whole = [](double degrees) { return std::to_string(std::lround(degrees)); };
+    return "the cameras are not turntable rings: " + std::to_string(plan.rig.views.size()) + " views of " +
+           std::to_string(plan.rings) + " rings, at elevations of " + whole(plan.lowest_deg) + " to " +
+           whole(plan.highest_deg) + " degrees, are synthesized from " + std::to_string(photos) + " photos";
+}
+
+}  // namespace
+
+Result<CaptureSet> with_rings(CaptureSet set, const PosedOptions& options, Progress* progress) {
+    if (!set.posed) return set;
+    const Result<std::vector<PosedPhoto>> photos = read_photos(set, progress);
+    if (!photos) return photos.error();
+    const Result<SignedVolume> surface = reconstruct_surface(*photos, options, progress);
+    if (!surface) return Error{set.file.string() + ": " + surface.error().message};
+    const auto bounds = surface->bounds();
+    if (!bounds) return Error{set.file.string() + ": no surface is left of the object; check the masks"};
+    Result<RingPlan> plan = plan_rings(*photos, *bounds, options.rings);
+    if (!plan) return Error{set.file.string() + ": " + plan.error().message};
+
+    set.warnings.push_back(summary(photos->size(), *plan));
+    set.posed = false;
+    set.upright.views = std::move(plan->rig.views);
+    set.upright.object_radius = plan->rig.object_radius;
+    set.upright.extras.erase(kPosedKey);
+    set.captured = set.upright;
+    set.width = set.upright.views.front().camera.width;
+    set.height = set.upright.views.front().camera.height;
+    const ViewSynthesizer synthesizer(*photos, *surface, options.synthesis, progress);
+    set.synthesized.resize(set.upright.views.size());
+    const int count = static_cast<int>(set.synthesized.size());
+    RS_TRY(for_each_in_parallel(count, "synthesized views", progress, [&](int i) -> Status {
+        const auto n = static_cast<std::size_t>(i);
+        set.synthesized[n] =
+            std::make_shared<const SynthesizedView>(synthesizer.synthesize(set.upright.views[n].camera));
+        return {};
+    }));
+    return set;
+}
+
+}  // namespace rs::encode
