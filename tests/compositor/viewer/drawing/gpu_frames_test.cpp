@@ -1,6 +1,7 @@
 // Frames whose objects are rendered on the GPU, in the context of the frame, equal those of the software core.
 
 #include "compositor/gpu/gpu_executor.hpp"
+#include "compositor/gpu/shader/texture_layout.hpp"
 #include "tests/compositor/viewer/drawing/compositing.hpp"
 
 #include <memory>
