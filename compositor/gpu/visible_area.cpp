@@ -105,7 +105,7 @@ public:
     }
 
 private:
-    // Of a predicate that becomes true once as rows increase.
+    // First row at which a predicate is true that becomes true once as rows increase.
     template <class Predicate>
     [[nodiscard]] int first_row_that(const Predicate& is_true) const {
         PixelRange rows{0, registers_.height};

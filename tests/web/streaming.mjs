@@ -128,7 +128,7 @@ async function open(server, src = "object.rso", orbit = "auto auto auto") {
 const happened = (page, type) => page.waitForFunction((type) => window.ended.includes(type), type, { timeout: 60000 });
 const messageOf = (page) =>
   page.evaluate(() => document.querySelector("ray-space").shadowRoot.querySelector("[part=message]").textContent);
-const hasView = (page) => page.evaluate(() => Boolean(document.querySelector("ray-space").shadowRoot.querySelector("canvas")));
+const hasView = (page) => page.evaluate(() => Boolean(document.querySelector("ray-space").shadowRoot.querySelector("canvas:not([part])")));
 
 const core = await Core.create(readFileSync(join(web, "core/rayspace_core.wasm")));
 core.open(file, "object");

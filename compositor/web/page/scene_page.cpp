@@ -47,7 +47,8 @@ Result<PageScene> read_page_scene(compositor::Scene scene) {
                 RS_ASSIGN_OR_RETURN(const SceneObject object, SceneObject::open(*file, node.file.string()));
                 return {};
             }();
-            if (!opened && node.required) return opened.error();
+            const auto requires_file = [&](const auto& each) { return each.required && each.file == node.file; };
+            if (!opened && std::ranges::any_of(scene.objects, requires_file)) return opened.error();
             if (!opened) warnings.push_back(opened.error().message + "; omitted");
             const std::string name = opened ? free_name(node.file, page.objects) : "";
             if (opened) page.objects.emplace(name, std::move(*file));
