@@ -290,7 +290,7 @@ const tests = {
     server.close();
     const changing = await serve();
     changing.onrequest = ({ count }) => {
-      if (count === 3) changing.etag = '"2"';
+      if (count === 5) changing.etag = '"2"';
       return {};
     };
     await assertFails(changing, /was changed on the server/, true);

@@ -60,6 +60,7 @@ export class RaySpaceElement extends HTMLElement {
   private captured: Orbit = { azimuth: 0, elevation: 0, distance: 1 };
   private loading?: AbortController;
   private shown = false; // a view is on screen
+  private showing?: Promise<void>; // the first one is being drawn
   private complete = false;
   private refresh = 0;
   private onScreen = false;
@@ -301,6 +302,7 @@ export class RaySpaceElement extends HTMLElement {
     this.renderer = undefined;
     this.object = undefined;
     this.shown = false;
+    this.showing = undefined;
     this.complete = false;
     clearTimeout(this.refresh);
     this.refresh = 0;
@@ -327,7 +329,7 @@ export class RaySpaceElement extends HTMLElement {
       described: (object) => this.begin(object),
       arrived: async (_, ready) => {
         if (this.shown) this.refreshSoon();
-        else if (ready && !signal.aborted) await this.showFirst();
+        else if (ready && !signal.aborted) await (this.showing ??= this.showFirst());
       },
       progress: (fraction) => this.progress(Math.min(fraction, 0.99)),
     });
@@ -348,6 +350,7 @@ export class RaySpaceElement extends HTMLElement {
       this.dispatchEvent(new CustomEvent("load", { detail: { url: src } }));
       this.revealed();
     } catch (error) {
+      await this.showing?.catch(() => {}); // a view that is being drawn stays
       if (!signal.aborted) this.fail(error, this.shown);
     }
   }
