@@ -224,7 +224,7 @@ Result<glm::dvec3> find_target(std::vector<HullView>& views, bool is_uncertain, 
         if (!is_uncertain && axes == CameraAxes::kOpenCv) break;
         if (is_uncertain && options.axes != CameraAxes::kAuto && options.axes != axes) continue;
         std::vector<HullView>& tried = axes == CameraAxes::kOpenGl ? views : converted;
-        const Result<glm::dvec3> target = common_target(tried);
+        Result<glm::dvec3> target = common_target(tried);
         if (!target) return Error{where + target.error().message};
         in_front = std::max(in_front, count_in_front(tried, *target));
         if (static_cast<double>(count_in_front(tried, *target)) < wanted) continue;

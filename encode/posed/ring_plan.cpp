@@ -13,7 +13,7 @@
 namespace rs::encode {
 namespace {
 
-constexpr double kMargin_px = 3;
+constexpr double kFrameMargin_px = 3;
 constexpr int kBytesPerPixel = 8;  // colour and depth
 constexpr double kLeastDensity = 0.5;
 constexpr double kOutermost = 0.02;  // share of the photos that are ignored at either end of the elevations
@@ -82,8 +82,8 @@ void frame_views(Rig& rig, const SignedVolume::Bounds& object) {
     std::vector<Frame> frames;
     for (const RigView& view : rig.views) {
         frames.push_back(frame_of(view.camera, object));
-        width = std::max(width, frames.back().right - frames.back().left + 2 * kMargin_px);
-        height = std::max(height, frames.back().bottom - frames.back().top + 2 * kMargin_px);
+        width = std::max(width, frames.back().right - frames.back().left + 2 * kFrameMargin_px);
+        height = std::max(height, frames.back().bottom - frames.back().top + 2 * kFrameMargin_px);
     }
     const auto even = [](double size) { return 2 * static_cast<int>(std::ceil(size / 2)); };
     for (std::size_t n = 0; n < rig.views.size(); ++n) {

@@ -151,7 +151,9 @@ ViewSynthesizer::Pixel ViewSynthesizer::render_pixel(const Camera& camera, int x
     double nearest = std::numeric_limits<double>::max();
     double farthest = 0;
     for (int i = 0; i < rays; ++i) {
-        const glm::dvec3 direction = camera.ray(x + (i % raster + 0.5) / raster, y + (i / raster + 0.5) / raster);
+        const int row = i / raster;
+        const int column = i % raster;
+        const glm::dvec3 direction = camera.ray(x + (column + 0.5) / raster, y + (row + 0.5) / raster);
         const auto span = surface_.clip(origin, direction);
         const auto t = span ? surface_.intersect(origin, direction, *span) : std::nullopt;
         if (!t) continue;

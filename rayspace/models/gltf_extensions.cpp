@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kHeader_bytes = 12, kChunkHeader_bytes = 8;
+constexpr std::size_t kGlbHeader_bytes = 12, kChunkHeader_bytes = 8;
 
 // Extensions whose contents are used, by Assimp or by the readers of nodes and materials.
 constexpr std::array<std::string_view, 10> kSupported = {"EXT_texture_webp",
@@ -35,7 +35,7 @@ bool is_glb(std::string_view bytes) {
 // Checks a .glb (glTF 2.0, 4.4; version 1.0 has its JSON's length at the same place), since Assimp allocates a chunk's
 // stated length before it checks the file's size.
 bool is_whole_glb(std::span<const std::byte> bytes) {
-    std::size_t at = kHeader_bytes;
+    std::size_t at = kGlbHeader_bytes;
     do {
         std::uint32_t length = 0;
         if (at > bytes.size() || bytes.size() - at < kChunkHeader_bytes) return false;
@@ -87,7 +87,7 @@ void append_number(std::vector<std::byte>& bytes, std::size_t number) {
 // Replaces the JSON chunk, padded with spaces to a multiple of 4.
 std::vector<std::byte> glb_with_json(const std::vector<std::byte>& glb, std::size_t old_length, std::string text) {
     text.resize((text.size() + 3) / 4 * 4, ' ');
-    const std::size_t rest = kHeader_bytes + kChunkHeader_bytes + old_length;
+    const std::size_t rest = kGlbHeader_bytes + kChunkHeader_bytes + old_length;
     std::vector<std::byte> result(glb.begin(), glb.begin() + 8);
     append_number(result, glb.size() - old_length + text.size());
     append_number(result, text.size());
@@ -103,8 +103,8 @@ Result<std::string> gltf_json(std::string_view bytes, const std::string& file) {
     bytes = without_byte_order_mark(bytes);
     if (!is_glb(bytes)) return std::string(bytes);
     std::uint32_t length = 0;
-    constexpr std::size_t kStart = kHeader_bytes + kChunkHeader_bytes;
-    if (bytes.size() >= kStart) std::memcpy(&length, bytes.data() + kHeader_bytes, sizeof length);
+    constexpr std::size_t kStart = kGlbHeader_bytes + kChunkHeader_bytes;
+    if (bytes.size() >= kStart) std::memcpy(&length, bytes.data() + kGlbHeader_bytes, sizeof length);
     if (bytes.size() < kStart || length > bytes.size() - kStart || bytes.substr(16, 4) != "JSON") {
         return Error{file + ": is a damaged .glb file; export it again"};
     }

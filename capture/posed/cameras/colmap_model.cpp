@@ -78,11 +78,11 @@ class ModelBuilder {
 public:
     explicit ModelBuilder(const std::string& folder) : model_{folder, {}, false} {}
 
-    Status add_lens(std::uint32_t id, PosedCamera lens, const std::string& place) {
+    Status add_lens(std::uint32_t id, const PosedCamera& lens, const std::string& place) {
         if (lenses_.size() >= kMaxViews) {
             return Error{place + ": more than " + std::to_string(kMaxViews) + " cameras; reduce the model"};
         }
-        if (!lenses_.try_emplace(id, std::move(lens)).second) {
+        if (!lenses_.try_emplace(id, lens).second) {
             return Error{place + ": camera " + std::to_string(id) + " is there twice; export the model again"};
         }
         return {};

@@ -12,6 +12,7 @@ namespace rs::web {
 namespace {
 
 constexpr int kSide = Footprint::kSide;
+constexpr double kHalfSide = kSide / 2.0;
 constexpr int kHeights = 128;           // bins of Y
 constexpr double kHeightRange = 4;      // object radii, of Y in [-2, 2)
 constexpr std::size_t kCells = 300000;  // of a shape map, about; of larger ones every n-th line is used
@@ -26,8 +27,8 @@ struct PointHistogram {
     std::vector<std::uint32_t> counts = std::vector<std::uint32_t>(std::size_t{kSide} * kSide * kHeights);
 
     void add(const glm::dvec3& p) {
-        const auto i = static_cast<int>(std::floor((p.x + 1) * (kSide / 2)));
-        const auto j = static_cast<int>(std::floor((p.z + 1) * (kSide / 2)));
+        const auto i = static_cast<int>(std::floor((p.x + 1) * kHalfSide));
+        const auto j = static_cast<int>(std::floor((p.z + 1) * kHalfSide));
         const auto k = static_cast<int>(std::floor((p.y + kHeightRange / 2) * (kHeights / kHeightRange)));
         if (i < 0 || j < 0 || k < 0 || i >= kSide || j >= kSide || k >= kHeights) return;
         ++counts[(static_cast<std::size_t>(j) * kSide + static_cast<std::size_t>(i)) * kHeights +
@@ -188,7 +189,7 @@ std::vector<std::uint8_t> disc() {
     std::vector<std::uint8_t> clearance(std::size_t{kSide} * kSide, Footprint::kNone);
     for (int j = 0; j < kSide; ++j) {
         for (int i = 0; i < kSide; ++i) {
-            const double radius = std::hypot(i + 0.5 - kSide / 2, j + 0.5 - kSide / 2) / (kSide / 2);
+            const double radius = std::hypot(i + 0.5 - kHalfSide, j + 0.5 - kHalfSide) / kHalfSide;
             if (radius < kDiscRadius) clearance[static_cast<std::size_t>(j * kSide + i)] = 0;
         }
     }

@@ -93,7 +93,7 @@ std::optional<std::vector<SampledRow>> sampled_rows(const glm::dmat3& image_from
         const double x = at.x / at.z - 0.5;
         const double step = across.x / at.z;
         const double y = at.y / at.z - 0.5;
-        constexpr double kLimit = std::numeric_limits<std::int32_t>::max() / 65536;
+        constexpr double kLimit = std::numeric_limits<std::int32_t>::max() / 65536.0;
         if (!(std::abs(x) + width * std::abs(step) < kLimit && std::abs(y) < kLimit)) return std::nullopt;
         row.x_q16 = static_cast<std::int32_t>(std::lround(x * 65536));
         row.step_q16 = static_cast<std::int32_t>(std::lround(step * 65536));

@@ -28,7 +28,7 @@ StreamedObject::StreamedObject(const std::string& name, std::optional<std::uint6
 }
 
 Status StreamedObject::add(std::uint64_t offset, std::span<const std::byte> bytes) {
-    const Status added = stream_.add(offset, bytes);
+    Status added = stream_.add(offset, bytes);
     // Chunks before a damaged one are shown.
     if (stream_.has_maps()) RS_TRY(show_arrivals());
     return added;
