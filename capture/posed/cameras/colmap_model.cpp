@@ -190,9 +190,9 @@ Status read_text_camera(std::string_view line, const std::string& place, ModelBu
         return Error{place + ": a camera of model " + name + " has width, height and " +
                      std::to_string(lens->parameters) + " parameters; export the model again"};
     }
-    RS_ASSIGN_OR_RETURN(PosedCamera camera,
+    RS_ASSIGN_OR_RETURN(const PosedCamera camera,
                         lens_from(*lens, width, height, std::span(parameters).first(lens->parameters), place));
-    return model.add_lens(id, std::move(camera), place);
+    return model.add_lens(id, camera, place);
 }
 
 Status read_text_image(std::string_view line, const std::string& place, ModelBuilder& model) {
@@ -310,8 +310,8 @@ Result<PosedModel> colmap_model_from_binary(std::span<const std::byte> cameras, 
         const std::string place = (fs::path(folder) / "cameras.bin").string() + ": camera " + std::to_string(i + 1);
         const auto id = lenses.get<std::uint32_t>();
         if (!lenses.ok()) return Error{place + ": the file is cut short; copy it again"};
-        RS_ASSIGN_OR_RETURN(PosedCamera lens, read_binary_lens(lenses, place));
-        RS_TRY(model.add_lens(id, std::move(lens), place));
+        RS_ASSIGN_OR_RETURN(const PosedCamera lens, read_binary_lens(lenses, place));
+        RS_TRY(model.add_lens(id, lens, place));
     }
     ByteReader records(images);
     const auto count = records.get<std::uint64_t>();
