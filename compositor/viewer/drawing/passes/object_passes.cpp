@@ -45,7 +45,7 @@ Result<ObjectPass> ObjectPass::create(std::size_t nodes, ObjectDepth depth,
                                       std::shared_ptr<const ObjectCartoon> cartoon) {
     RS_ASSIGN_OR_RETURN(auto objects, ObjectRenderer::create(nodes, depth));
     RS_ASSIGN_OR_RETURN(auto placeholders, PlaceholderRenderer::create());
-    return ObjectPass(std::move(objects), std::move(placeholders), depth, std::move(cartoon));
+    return ObjectPass(std::move(objects), std::move(placeholders), std::move(cartoon));
 }
 
 Status ObjectPass::run(FrameContext& frame) {

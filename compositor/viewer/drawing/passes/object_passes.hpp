@@ -45,12 +45,8 @@ public:
     Status run(FrameContext& frame);
 
 private:
-    ObjectPass(ObjectRenderer objects, PlaceholderRenderer placeholders, ObjectDepth depth,
-               std::shared_ptr<const ObjectCartoon> cartoon)
-        : objects_(std::move(objects)),
-          placeholders_(std::move(placeholders)),
-          depth_(depth),
-          cartoon_(std::move(cartoon)) {}
+    ObjectPass(ObjectRenderer objects, PlaceholderRenderer placeholders, std::shared_ptr<const ObjectCartoon> cartoon)
+        : objects_(std::move(objects)), placeholders_(std::move(placeholders)), cartoon_(std::move(cartoon)) {}
     void release_unloaded(const ObjectNodes& nodes);
     Status add_image(const VisibleNode& node, const engine::DrawnView& rendered, FrameContext& frame);
     Status upload(const VisibleNode& node, const engine::DrawnView& rendered, const FrameContext& frame);
@@ -60,7 +56,6 @@ private:
 
     ObjectRenderer objects_;
     PlaceholderRenderer placeholders_;
-    ObjectDepth depth_;
     std::shared_ptr<const ObjectCartoon> cartoon_;  // null: the look of the photos
     std::optional<GpuRenderer> gpu_;                // since the first deferred view
 };
