@@ -90,6 +90,7 @@ TEST_F(GltfFileTest, MaterialsAndTexturesComeBack) {
     texture->image(1, 0) = {0, 0, 255, 255};
     texture->repeat_s = false;
     texture->modulates = true;
+    scene_.geometry.reserve(3);  // so that the first node stays where it is
     GeometryNode& textured = add_box({1, 1, 1}, {0, 0, 0});
     textured.material.diffuse = glm::vec3(0.5F, 0.25F, 0.75F);
     textured.material.emissive = glm::vec3(0.1F, 0.2F, 0.3F);
