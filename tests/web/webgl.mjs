@@ -61,7 +61,7 @@ function defineHelpers() {
       element.style = "width: 160px; height: 120px";
       element.addEventListener("load", () => resolve(element), { once: true });
       element.addEventListener("error", (event) => reject(new Error(event.detail.message)), { once: true });
-      const all = { src: "/vectors/shape-sharp.rso", core: "/web/core/rayspace_core.wasm", ...attributes };
+      const all = { src: "/vectors/shape-sharp.rso", core: "/web/core/rayspace_core.wasm", loading: "eager", ...attributes };
       for (const [name, value] of Object.entries(all)) element.setAttribute(name, value);
       document.body.append(element);
     });
