@@ -309,7 +309,7 @@ public:
     }
 
 private:
-    // Levels over the hull's box, spaced by what the neighbour at the widest angle resolves.
+    // Levels over the hull's box, spaced by the depth resolution of the neighbour at the widest angle.
     [[nodiscard]] Levels levels_of(const WorkPhoto& photo, const std::vector<int>& neighbours) const {
         double low = 1e30, high = -1e30;
         for (int corner = 0; corner < 8; ++corner) {

@@ -18,7 +18,7 @@ namespace rs::capture {
 ///   *.json          transforms.json of nerfstudio, instant-ngp, Blender or NeRF, by read_rig() with its lens keys
 ///   *.bin, *.txt    a file of a COLMAP model; any other *.txt is Middlebury's
 ///
-/// Of frames that repeat another one, the first is kept. Errors: those of the readers, an image with two different
+/// The first of several equal frames is kept. Errors: those of the readers, an image with two different
 /// cameras, an unknown file type.
 Result<PosedModel> read_camera_file(const std::filesystem::path& path);
 

@@ -7,7 +7,7 @@ import type { GeometryAnswer, GeometryRequest } from "./core_server.js";
 import { GlDevice, GlObject } from "./gl_device.js";
 import { CoreRenderer, type ViewRenderer } from "./view_renderer.js";
 
-const kRetry_ms = 2000; // until memory is asked for again
+const kRetry_ms = 2000; // after textures did not fit, before they are allocated again
 const kRest_ms = 200; // pause after which photos of the views beside are uploaded
 const kBeside = Math.PI / 6;
 const kBesideSide = 128; // pixels; enough columns to find the photos
