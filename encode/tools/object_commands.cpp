@@ -77,6 +77,9 @@ Status run_info(const ObjectArguments& arguments) {
                                      {"planes", ring.planes},
                                      {"x_cells", ring.x_cells},
                                      {"u_cells", ring.u_cells}});
+            const RingRotation& q = ring.rotation;
+            if (q.is_identity()) continue;
+            json["rings"].back()["rotation_q30"] = {q.x_q30, q.y_q30, q.z_q30, q.w_q30};
         }
         for (const ChunkSummary& chunk : chunks) {
             json["chunks"].push_back({{"name", chunk.name}, {"count", chunk.count}, {"bytes", chunk.size_bytes}});
@@ -92,8 +95,10 @@ Status run_info(const ObjectArguments& arguments) {
     std::printf("  images   %zu of %dx%d, Y U V %sand alpha, %s\n", object->views.size(), object->width, object->height,
                 object->coded ? "" : "at 4:2:0 ", stored_as(*object).c_str());
     for (const Ring& ring : object->rings) {
-        std::printf("  ring       %zu views at elevation %.2f degrees; %d planes, RS map %dx%d (x, u)\n",
-                    ring.views.size(), ring.elevation_udeg * 1e-6, ring.planes, ring.x_cells, ring.u_cells);
+        std::printf("  ring       %zu views at elevation %.2f degrees%s; %d planes, RS map %dx%d (x, u)\n",
+                    ring.views.size(), ring.elevation_udeg * 1e-6,
+                    ring.rotation.is_identity() ? "" : " about an axis across the object's", ring.planes, ring.x_cells,
+                    ring.u_cells);
     }
     std::printf("  radius     %g units of the capture set\n", object->units_per_radius);
     if (object->foot_q20) std::printf("  stands at  height %.3f radii\n", std::ldexp(*object->foot_q20, -20));

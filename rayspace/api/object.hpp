@@ -28,7 +28,7 @@ struct OpenOptions {
 
 /// Ring of photos: one turn at one elevation.
 struct RingInfo {
-    double elevation_deg = 0;  ///< of the cameras above the horizontal plane through the object's origin
+    double elevation_deg = 0;  ///< of the cameras above the plane through the origin across the ring's axis
     int photos = 0;            ///< number of photos
     int planes = 0;            ///< number of reference planes
     bool has_depth = false;    ///< true if the ring has a depth for every ray; else the object is assumed on the planes

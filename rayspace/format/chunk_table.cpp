@@ -4,9 +4,9 @@ namespace rs::object_chunks {
 
 std::span<const ChunkKind> chunk_table() {
     static const ChunkKind table[] = {
-        head_chunk(),  rig_chunk(), views_chunk(), foot_chunk(), code_chunk(),  // per object
-        ring_chunk(),  map_chunk(), shape_chunk(),                              // per ring
-        image_chunk(),                                                          // per view
+        head_chunk(),  rig_chunk(),  views_chunk(), foot_chunk(),  code_chunk(),  // per object
+        ring_chunk(),  axis_chunk(), map_chunk(),   shape_chunk(),                // per ring
+        image_chunk(),                                                            // per view
     };
     return table;
 }

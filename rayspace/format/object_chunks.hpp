@@ -19,6 +19,7 @@ inline constexpr ChunkName kRig = {'R', 'I', 'G', 'J'};
 inline constexpr ChunkName kViews = {'V', 'I', 'E', 'W'};
 inline constexpr ChunkName kFoot = {'f', 'o', 'o', 't'};
 inline constexpr ChunkName kRing = {'R', 'I', 'N', 'G'};
+inline constexpr ChunkName kAxis = {'A', 'X', 'I', 'S'};
 inline constexpr ChunkName kMap = {'R', 'M', 'A', 'P'};
 inline constexpr ChunkName kShape = {'s', 'h', 'a', 'p'};
 inline constexpr ChunkName kCode = {'C', 'O', 'D', 'E'};

@@ -7,6 +7,7 @@
 // rig's units), foot_height (Y of the ground below the object, in the rig's units), axis_note, depth_file_path per
 // frame. Unknown keys survive a round trip.
 
+#include "rayspace/api/types/ray_space_object.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
 
@@ -72,10 +73,11 @@ struct RingOptions {
 };
 Rig make_ring(const RingOptions& options);
 
-/// Views of a rig that form a ring about the Y axis.
+/// Views of a rig that form a ring about the Y axis of the ring's axes.
 struct ViewRing {
-    double elevation_rad = 0;  // mean, above the horizontal plane through the origin
+    double elevation_rad = 0;  // mean, above the plane y = 0 of the ring's axes
     std::vector<int> views;    // in turning order, from +Z towards +X
+    RingRotation rotation;     // from the rig's axes to the ring's
 };
 
 /// Sorts views by the elevation of their centres; a gap of more than 5 degrees starts a new ring.

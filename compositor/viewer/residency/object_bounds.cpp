@@ -86,6 +86,7 @@ double azimuth_of(const CapturedView& view) {
 // Silhouette measurements of the ring whose elevation is closest to horizontal, which shows the foot from the side.
 std::vector<SilhouetteMeasure> silhouettes_of_lowest_ring(const RaySpaceObject& object) {
     const auto lowest = std::min_element(object.rings.begin(), object.rings.end(), [](const Ring& a, const Ring& b) {
+        if (a.rotation.is_identity() != b.rotation.is_identity()) return a.rotation.is_identity();
         return std::abs(a.elevation_udeg) < std::abs(b.elevation_udeg);
     });
     std::vector<SilhouetteMeasure> silhouettes;

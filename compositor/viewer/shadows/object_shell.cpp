@@ -86,6 +86,7 @@ std::optional<ShellView> view_from(const ViewableObject& object, double azimuth_
 std::vector<double> elevations_of(const RaySpaceObject& object) {
     std::vector<double> all;
     for (const Ring& ring : object.rings) {
+        if (!ring.rotation.is_identity()) continue;
         all.push_back(std::clamp(radians(ring.elevation_udeg * 1e-6), -kSteepest_rad, kSteepest_rad));
     }
     std::ranges::sort(all);

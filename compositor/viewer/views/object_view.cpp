@@ -35,7 +35,10 @@ constexpr double kLeastSteepest_rad = kPi / 3;
 
 double steepest_elevation(const RaySpaceObject& object) {
     double steepest = kLeastSteepest_rad;
-    for (const Ring& ring : object.rings) steepest = std::max(steepest, std::abs(radians(ring.elevation_udeg * 1e-6)));
+    for (const Ring& ring : object.rings) {
+        if (!ring.rotation.is_identity()) return kPi / 2;
+        steepest = std::max(steepest, std::abs(radians(ring.elevation_udeg * 1e-6)));
+    }
     return steepest;
 }
 

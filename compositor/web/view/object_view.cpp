@@ -4,6 +4,7 @@
 #include "engine/core/definition/view_registers.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/object_file.hpp"
+#include "rayspace/geometry/ring_axes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -69,7 +70,9 @@ std::vector<CapturedCamera> captured_cameras(const RaySpaceObject& object) {
     const double target_height = first.eye.y + first.axis_depth * (first.cy - object.height / 2.0) / first.fl_y;
     std::vector<CapturedCamera> cameras;
     for (const Ring& ring : object.rings) {
-        const UprightPhoto photo = photo_of(object, ring, ring.views.front());
+        UprightPhoto photo =
+            photo_of(object, ring, ring.views[ring.rotation.is_identity() ? 0 : ring.views.size() / 2]);
+        photo.eye = glm::transpose(ring_from_object(ring.rotation)) * photo.eye;
         const double level = std::hypot(photo.eye.x, photo.eye.z);
         const double above = photo.eye.y - target_height;
         cameras.push_back({.distance = std::hypot(level, above),

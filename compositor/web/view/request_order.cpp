@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <tuple>
 
 namespace rs::web {
 namespace {
@@ -91,7 +92,10 @@ std::vector<std::size_t> rings_from(const RaySpaceObject& object, std::size_t ne
         const auto away = [&](std::size_t r) {
             return std::abs(object.rings[r].elevation_udeg - object.rings[nearest].elevation_udeg);
         };
-        return std::pair(a != nearest, away(a)) < std::pair(b != nearest, away(b));
+        const auto rank = [&](std::size_t r) {
+            return std::tuple(r != nearest, !(object.rings[r].rotation == object.rings[nearest].rotation), away(r));
+        };
+        return rank(a) < rank(b);
     });
     return rings;
 }

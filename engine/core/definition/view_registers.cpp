@@ -1,7 +1,9 @@
 #include "engine/core/definition/view_registers.hpp"
 
+#include "engine/core/definition/ring_choice.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/ray_space.hpp"
+#include "rayspace/geometry/ring_axes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -77,14 +79,6 @@ bool is_in_range(const LinearForm& form, int width, int height) {
     return true;
 }
 
-int nearest_ring(const RaySpaceObject& object, const glm::dvec3& viewpoint) {
-    const double elevation_udeg = degrees(std::atan2(viewpoint.y, std::hypot(viewpoint.x, viewpoint.z))) * 1e6;
-    const auto distance = [&](const Ring& ring) { return std::abs(ring.elevation_udeg - elevation_udeg); };
-    const auto best = std::min_element(object.rings.begin(), object.rings.end(),
-                                       [&](const Ring& a, const Ring& b) { return distance(a) < distance(b); });
-    return static_cast<int>(best - object.rings.begin());
-}
-
 // Pixels per object radius at the axis in the view, relative to the captured images.
 double magnification(const RaySpaceObject& object, const Ring& ring, const Camera& camera) {
     const CapturedView& captured = object.views[ring.views.front()];
@@ -147,8 +141,10 @@ Status check_registers(const RaySpaceObject& object, const ViewRegisters& r) {
     return {};
 }
 
-Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera_in_rig,
-                                   std::optional<TexelFilter> filter) {
+namespace {
+
+// The camera in object radii, at most kMaxViewpointDistance away.
+Result<Camera> camera_in_radii(const RaySpaceObject& object, const Camera& camera_in_rig) {
     if (object.rings.empty()) return view_error("the object has no ring of views");
     if (camera_in_rig.width < 1 || camera_in_rig.height < 1 || camera_in_rig.width > kMaxImageSide_px ||
         camera_in_rig.height > kMaxImageSide_px) {
@@ -165,27 +161,31 @@ Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& c
     if (!std::isfinite(glm::length(camera.centre())) || !std::isfinite(camera.cx) || !std::isfinite(camera.cy)) {
         return view_error("its camera has parameters that are not finite");
     }
-    camera = limit_viewpoint_distance(camera);
+    return limit_viewpoint_distance(camera);
+}
 
+// Registers of a view by one ring. `is_narrowed`: the viewpoint was moved, and the field of view narrowed.
+Result<ViewRegisters> registers_of_ring(const RaySpaceObject& object, const Camera& in_object, int ring_index,
+                                        bool is_narrowed, std::optional<TexelFilter> filter) {
+    const Ring& ring = object.rings[static_cast<std::size_t>(ring_index)];
+    const Camera camera = in_ring_axes(in_object, ring.rotation);
     ViewRegisters registers;
     registers.width = camera.width;
     registers.height = camera.height;
-    registers.ring = nearest_ring(object, camera.centre());
-    const Ring& ring = object.rings[static_cast<std::size_t>(registers.ring)];
+    registers.ring = ring_index;
     if (!ring.shape.empty()) registers.filter = filter.value_or(best_filter(object, ring, camera));
     registers.b_q20 = static_cast<std::int32_t>(fixed(camera.centre().y, 20));
 
     const std::string too_wide =
-        camera.fl_x < camera_in_rig.fl_x
+        is_narrowed
             ? "the object covers only a few pixels at this distance and field of view; narrow the field of view"
             : "its field of view is too wide (a ray deviates from the viewing axis by a tangent of more than 8); use a "
               "longer focal length";
     const auto rise = form_along(camera, {0, 1, 0});
     if (!rise || std::abs(camera.up().y / camera.fl_y) >= kLargestRowStep) return view_error(too_wide);
     registers.rise = *rise;
-    const int planes = object.rings[static_cast<std::size_t>(registers.ring)].planes;
-    for (int k = 0; k < planes; ++k) {
-        const ReferencePlane plane = reference_plane(k, planes);
+    for (int k = 0; k < ring.planes; ++k) {
+        const ReferencePlane plane = reference_plane(k, ring.planes);
         const ViewpointLine line = viewpoint_line(camera.centre(), plane);
         const auto along_normal = form_along(camera, plane.normal);
         const auto along_tangent = form_along(camera, plane.tangent);
@@ -194,6 +194,30 @@ Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& c
                                     static_cast<std::int32_t>(fixed(line.c, 20)), *along_normal, *along_tangent});
     }
     return registers;
+}
+
+}  // namespace
+
+Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera_in_rig,
+                                   std::optional<TexelFilter> filter) {
+    RS_ASSIGN_OR_RETURN(const Camera camera, camera_in_radii(object, camera_in_rig));
+    return registers_of_ring(object, camera, choose_rings(object, camera.centre()).nearest,
+                             camera.fl_x < camera_in_rig.fl_x, filter);
+}
+
+Result<MixedView> prepare_mixed_view(const RaySpaceObject& object, const Camera& camera_in_rig,
+                                     std::optional<TexelFilter> filter) {
+    RS_ASSIGN_OR_RETURN(const Camera camera, camera_in_radii(object, camera_in_rig));
+    const RingChoice rings = choose_rings(object, camera.centre());
+    const auto registers = [&](int ring) {
+        return registers_of_ring(object, camera, ring, camera.fl_x < camera_in_rig.fl_x, filter);
+    };
+    MixedView view;
+    RS_ASSIGN_OR_RETURN(view.nearest, registers(rings.nearest));
+    if (rings.second < 0) return view;
+    RS_ASSIGN_OR_RETURN(view.second, registers(rings.second));
+    view.weight_q8 = rings.weight_q8;
+    return view;
 }
 
 DepthScale depth_scale(const RaySpaceObject& object, const Camera& camera) {

@@ -23,6 +23,17 @@ namespace rs::engine {
 Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera,
                                    std::optional<TexelFilter> filter = {});
 
+/// A view that is mixed from the images of two rings (mix_rings.hpp) where the viewpoint lies between them.
+struct MixedView {
+    ViewRegisters nearest;
+    std::optional<ViewRegisters> second;
+    int weight_q8 = 0;  // of the second ring, 1..128; 0: there is none
+};
+
+/// As prepare_view(), which uses the nearest ring alone.
+Result<MixedView> prepare_mixed_view(const RaySpaceObject& object, const Camera& camera,
+                                     std::optional<TexelFilter> filter = {});
+
 /// Validates registers that prepare_view did not compute: sizes, ring, number of planes, and the ranges of
 /// RECONSTRUCTION.md at every pixel. Renderers require valid registers and do not check them.
 Status check_registers(const RaySpaceObject& object, const ViewRegisters& registers);

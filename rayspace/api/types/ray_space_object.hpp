@@ -52,11 +52,25 @@ struct CapturedView {
     bool operator==(const CapturedView&) const = default;  ///< equal in all members
 };
 
-/// Ring of views and its RS map. Cell (k, xi, ui) is cells[(k * x_cells + xi) * u_cells + ui] and holds the index of a
-/// view of the object, or kNoImage. xi = floor((x + x_half) * x_cells_per_unit) for x in [-x_half, x_half);
-/// ui = floor((u + u_half) * u_cells_per_unit); both clamped to the map.
+/// Rotation from the object's axes to a ring's axes, whose Y is the axis that the ring's views surround: a unit
+/// quaternion.
+struct RingRotation {
+    std::int32_t x_q30 = 0;                                ///< x
+    std::int32_t y_q30 = 0;                                ///< y
+    std::int32_t z_q30 = 0;                                ///< z
+    std::int32_t w_q30 = 1 << 30;                          ///< w, the real part
+    bool operator==(const RingRotation&) const = default;  ///< equal in all members
+    /// True if the ring surrounds the object's own Y axis.
+    [[nodiscard]] bool is_identity() const { return *this == RingRotation{}; }
+};
+
+/// Ring of views and its RS map. Planes, lines, elevation and shape map are in the ring's axes (`rotation`). Cell (k,
+/// xi, ui) is cells[(k * x_cells + xi) * u_cells + ui] and holds the index of a view of the object, or kNoImage. xi =
+/// floor((x + x_half) * x_cells_per_unit) for x in [-x_half, x_half); ui = floor((u + u_half) * u_cells_per_unit); both
+/// clamped to the map.
 struct Ring {
-    std::int32_t elevation_udeg = 0;  ///< mean elevation of the viewpoints above the horizontal plane, 1e-6 degrees
+    RingRotation rotation;            ///< identity for turntable photos
+    std::int32_t elevation_udeg = 0;  ///< mean elevation of the viewpoints above the ring's plane y = 0, 1e-6 degrees
     int planes = 0;                   ///< K, number of reference planes
     int x_cells = 0;                  ///< cells along x
     int u_cells = 0;                  ///< cells along u

@@ -67,6 +67,7 @@ ChunkKind views_chunk();
 ChunkKind foot_chunk();
 ChunkKind code_chunk();
 ChunkKind ring_chunk();
+ChunkKind axis_chunk();
 ChunkKind map_chunk();
 ChunkKind shape_chunk();
 ChunkKind image_chunk();

@@ -112,6 +112,20 @@ TEST(ObjectFile, TheFootIsKeptWhereItIsKnown) {
     EXPECT_THAT(far.error().message, HasSubstr("its foot is 256 object radii or more"));
 }
 
+TEST(ObjectFile, TheAxisOfARingIsKept) {
+    const TemporaryFolder folder;
+    RaySpaceObject object = small_object();
+    object.rings.front().rotation = {1 << 29, 1 << 29, 1 << 29, 1 << 29};
+    ASSERT_TRUE(write_object(folder / "turned.rso", object).ok());
+    const auto back = read_object(folder / "turned.rso");
+    ASSERT_TRUE(back.ok()) << back.error().message;
+    EXPECT_EQ(back->rings, object.rings);
+    object.rings.front().rotation.w_q30 += 1 << 20;
+    const Status longer = write_object(folder / "longer.rso", object);
+    ASSERT_FALSE(longer.ok());
+    EXPECT_THAT(longer.error().message, HasSubstr("its rotation is not a unit quaternion"));
+}
+
 TEST(ObjectFile, AnObjectMayHaveNoRig) {
     const TemporaryFolder folder;
     RaySpaceObject object = small_object();
