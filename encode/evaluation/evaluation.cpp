@@ -50,10 +50,10 @@ Result<engine::Renderer> renderer_of_kept(const CaptureSet& kept, MapKind kind, 
 
 Result<Image<Rgba8>> render_view(const engine::Renderer& renderer, const CaptureSet& set, int view) {
     const RigView& wanted = set.upright.views[static_cast<std::size_t>(view)];
-    const Result<engine::ViewRegisters> registers = engine::prepare_view(renderer.object(), wanted.camera);
-    if (!registers) return Error{image_path(set.folder, wanted).string() + ": " + registers.error().message};
+    const Result<engine::MixedView> prepared = engine::prepare_mixed_view(renderer.object(), wanted.camera);
+    if (!prepared) return Error{image_path(set.folder, wanted).string() + ": " + prepared.error().message};
     Image<Rgba8> image(wanted.camera.width, wanted.camera.height);
-    renderer.render(*registers, image);
+    renderer.render(*prepared, image);
     return image;
 }
 

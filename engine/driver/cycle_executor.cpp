@@ -1,5 +1,6 @@
 #include "engine/driver/cycle_executor.hpp"
 
+#include "engine/core/definition/mix_rings.hpp"
 #include "engine/core/fast/core_executor.hpp"
 
 #include <algorithm>
@@ -68,7 +69,7 @@ bool CycleExecutor::store_board_images(const std::vector<PreparedView>& views, c
     return true;
 }
 
-Result<std::vector<DrawnView>> CycleExecutor::draw(const std::vector<PreparedView>& views) {
+Result<std::vector<DrawnView>> CycleExecutor::draw_unmixed(const std::vector<PreparedView>& views) {
     const bool reserved = board_ && board_->reserve();
     const std::vector<std::size_t> share = reserved ? select_board_views(views) : std::vector<std::size_t>();
     std::vector<bool> on_board(views.size());
@@ -100,6 +101,27 @@ Result<std::vector<DrawnView>> CycleExecutor::draw(const std::vector<PreparedVie
         }
     }
     if (failure) return *failure;
+    return drawn;
+}
+
+Result<std::vector<DrawnView>> CycleExecutor::draw(const std::vector<PreparedView>& views) {
+    std::vector<PreparedView> all = views;
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        if (!views[v].second) continue;
+        all[v].may_defer = false;
+        all.push_back(all[v]);
+        all.back().registers = *views[v].second;
+    }
+    RS_ASSIGN_OR_RETURN(std::vector<DrawnView> drawn, draw_unmixed(all));
+    std::size_t next = views.size();
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        if (!views[v].second) continue;
+        const DrawnView& second = drawn[next++];
+        mix_rings(drawn[v].image, drawn[v].depth_q20, second.image, second.depth_q20, views[v].weight_q8);
+        drawn[v].seconds += second.seconds;
+        drawn[v].by_board = drawn[v].by_board && second.by_board;
+    }
+    drawn.resize(views.size());
     return drawn;
 }
 

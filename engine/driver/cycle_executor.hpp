@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace rs::engine {
@@ -24,6 +25,8 @@ struct PreparedView {
     std::uint32_t object = 0;
     std::shared_ptr<const Renderer> renderer;
     ViewRegisters registers;
+    std::optional<ViewRegisters> second;  // of a view between two rings (mix_rings.hpp)
+    int weight_q8 = 0;
     bool depth = false;             // depth is requested
     bool board_can_render = false;  // once the object is in its memory
     bool may_defer = false;         // ExecutedView::deferred is accepted
@@ -42,6 +45,7 @@ public:
     Result<std::vector<DrawnView>> draw(const std::vector<PreparedView>& views);
 
 private:
+    Result<std::vector<DrawnView>> draw_unmixed(const std::vector<PreparedView>& views);
     [[nodiscard]] std::vector<std::size_t> select_board_views(const std::vector<PreparedView>& views) const;
     void request_objects(const std::vector<PreparedView>& views);
     // Moves the images of the board to `drawn`; returns false if the board failed.

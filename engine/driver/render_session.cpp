@@ -212,10 +212,11 @@ Result<CycleHandle> RenderSession::submit(const std::vector<ViewRequest>& views)
         if (found == state_->objects.end()) return not_loaded(view.object);
         const RaySpaceObject& object = found->second.renderer->object();
         const bool is_filtered = !found->second.on_board || board->device().traits().filters;
-        Result<ViewRegisters> registers =
-            prepare_view(object, view.camera, is_filtered ? std::nullopt : std::optional(TexelFilter::kBilinear));
-        if (!registers) return Error{object.name + ": " + registers.error().message};
-        const Status by_board = board == nullptr ? Status() : board_renders(*board, view, found->second, *registers);
+        Result<MixedView> prepared =
+            prepare_mixed_view(object, view.camera, is_filtered ? std::nullopt : std::optional(TexelFilter::kBilinear));
+        if (!prepared) return Error{object.name + ": " + prepared.error().message};
+        const Status by_board =
+            board == nullptr ? Status() : board_renders(*board, view, found->second, prepared->nearest);
         const bool board_can_render = board != nullptr && found->second.on_board && by_board.ok();
         if (!by_board) {
             refusals.push_back({view.object, by_board.error().message});
@@ -223,8 +224,14 @@ Result<CycleHandle> RenderSession::submit(const std::vector<ViewRequest>& views)
             const std::optional<std::string> refusal = board->load_refusal(view.object.number);
             if (refusal) refusals.push_back({view.object, object.name + ": " + *refusal});
         }
-        cycle->views.push_back({view.object.number, found->second.renderer, std::move(*registers), view.depth,
-                                board_can_render, view.may_defer});
+        cycle->views.push_back({.object = view.object.number,
+                                .renderer = found->second.renderer,
+                                .registers = std::move(prepared->nearest),
+                                .second = std::move(prepared->second),
+                                .weight_q8 = prepared->weight_q8,
+                                .depth = view.depth,
+                                .board_can_render = board_can_render,
+                                .may_defer = view.may_defer});
     }
     if (state_->cycles.size() >= static_cast<std::size_t>(state_->limits.cycles_in_flight)) {
         return Error{std::to_string(state_->cycles.size()) + " cycles are not yet retrieved; retrieve one first"};

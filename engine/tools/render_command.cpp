@@ -89,9 +89,9 @@ private:
 
 Result<Image<Rgba8>> render_camera(const Renderer& renderer, const Camera& camera, std::optional<TexelFilter> filter,
                                    EmptyViews& empty) {
-    RS_ASSIGN_OR_RETURN(const ViewRegisters registers, prepare_view(renderer.object(), camera, filter));
+    RS_ASSIGN_OR_RETURN(const MixedView view, prepare_mixed_view(renderer.object(), camera, filter));
     Image<Rgba8> image(camera.width, camera.height);
-    renderer.render(registers, image);
+    renderer.render(view, image);
     empty.add(image);
     return image;
 }
@@ -104,10 +104,10 @@ std::filesystem::path depth_name(std::filesystem::path image) {
 // Writes the view as PNG and its depth to depth_name(path).
 Status write_view_with_depth(const Renderer& renderer, const Camera& camera, std::optional<TexelFilter> filter,
                              const std::filesystem::path& path, EmptyViews& empty) {
-    RS_ASSIGN_OR_RETURN(const ViewRegisters registers, prepare_view(renderer.object(), camera, filter));
+    RS_ASSIGN_OR_RETURN(const MixedView view, prepare_mixed_view(renderer.object(), camera, filter));
     Image<Rgba8> image(camera.width, camera.height);
     Image<std::int32_t> lambda_q20(camera.width, camera.height);
-    renderer.render(registers, image, lambda_q20);
+    renderer.render(view, image, lambda_q20);
     empty.add(image);
     RS_TRY(write_png(path, image));
     return write_exr_channel(depth_name(path), depth_image(renderer.object(), camera, lambda_q20));

@@ -1,5 +1,6 @@
 #include "rayspace/api/renderer.hpp"
 
+#include "engine/core/definition/mix_rings.hpp"
 #include "engine/core/definition/view_registers.hpp"
 #include "engine/core/fast/renderer.hpp"
 #include "rayspace/api/internal/type_conversion.hpp"
@@ -111,8 +112,12 @@ Result<RenderedView> Renderer::render(const Camera& camera, const RenderOptions&
     const rs::Camera internal = to_internal(camera);
     std::optional<TexelFilter> filter = filter_of(options.filter);
     if (state_->executor && !state_->executor->traits().filters && !filter) filter = TexelFilter::kBilinear;
-    RS_ASSIGN_OR_RETURN(const ViewRegisters registers, engine::prepare_view(object, internal, filter));
-    RS_ASSIGN_OR_RETURN(ExecutedView view, state_->execute(registers, options));
+    RS_ASSIGN_OR_RETURN(const engine::MixedView prepared, engine::prepare_mixed_view(object, internal, filter));
+    RS_ASSIGN_OR_RETURN(ExecutedView view, state_->execute(prepared.nearest, options));
+    if (prepared.second) {
+        RS_ASSIGN_OR_RETURN(const ExecutedView second, state_->execute(*prepared.second, options));
+        engine::mix_rings(view.image, view.depth_q20, second.image, second.depth_q20, prepared.weight_q8);
+    }
     RenderedView rendered{std::move(view.image), {}};
     if (options.depth) rendered.depth = engine::depth_image(object, internal, view.depth_q20);
     return rendered;

@@ -1,5 +1,6 @@
 #include "engine/core/fast/renderer.hpp"
 
+#include "engine/core/definition/mix_rings.hpp"
 #include "engine/core/definition/ray_setup.hpp"
 #include "engine/core/definition/shape_pixel.hpp"
 #include "engine/core/fast/column_walk.hpp"
@@ -186,6 +187,15 @@ const RaySpaceObject& Renderer::object_for(const ViewRegisters& registers) const
 
 std::int64_t Renderer::memory_bytes() const {
     return object_memory_bytes(object_) + texels_.memory_bytes();
+}
+
+void Renderer::render(const MixedView& view, ImageView<Rgba8> out, ImageView<std::int32_t> lambda_q20) const {
+    render(view.nearest, out, lambda_q20);
+    if (!view.second) return;
+    Image<Rgba8> second(out.width(), out.height());
+    Image<std::int32_t> second_lambda(lambda_q20.width(), lambda_q20.height());
+    render(*view.second, second, second_lambda);
+    mix_rings(out, lambda_q20, second, second_lambda, view.weight_q8);
 }
 
 void Renderer::render(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda_q20) const {

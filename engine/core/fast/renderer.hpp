@@ -65,6 +65,8 @@ public:
     /// \param lambda_q20  empty, or the size of the view: receives the axial depth, 0 where alpha is 0 (as in
     ///                    reconstruct_scalar)
     void render(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda_q20 = {}) const;
+    /// Renders a view from one ring, or mixes it from two, which takes twice the time.
+    void render(const MixedView& view, ImageView<Rgba8> out, ImageView<std::int32_t> lambda_q20 = {}) const;
 
 private:
     Renderer(RaySpaceObject object, TexelStore texels);

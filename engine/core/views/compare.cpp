@@ -29,9 +29,9 @@ Result<MeasuredView> compare_view(const RenderView& render, const std::filesyste
 
 Result<Comparison> compare_with_set(const Renderer& renderer, const std::filesystem::path& set, Progress* progress) {
     const RenderView render = [&](const Camera& camera) -> Result<Image<Rgba8>> {
-        RS_ASSIGN_OR_RETURN(const ViewRegisters registers, prepare_view(renderer.object(), camera));
+        RS_ASSIGN_OR_RETURN(const MixedView view, prepare_mixed_view(renderer.object(), camera));
         Image<Rgba8> rendered(camera.width, camera.height);
-        renderer.render(registers, rendered);
+        renderer.render(view, rendered);
         return rendered;
     };
     return compare_with_set(render, set, progress);
