@@ -5,6 +5,7 @@
 #include "rayspace/base/json_text.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/rig.hpp"
+#include "rayspace/geometry/ring_axes.hpp"
 #include "rayspace/light/capture_irradiance.hpp"
 #include "rayspace/object/yuv.hpp"
 
@@ -32,6 +33,17 @@ Status check_options(const PlaneMapOptions& map, std::size_t rings) {
 Rig in_object_radii(Rig rig) {
     for (RigView& view : rig.views) {
         view.camera.world_from_camera[3] = glm::dvec4(view.camera.centre() / rig.object_radius, 1);
+    }
+    return rig;
+}
+
+// Cameras in the axes of their rings.
+Rig in_ring_axes(Rig rig, const std::vector<ViewRing>& rings) {
+    for (const ViewRing& ring : rings) {
+        for (const int v : ring.views) {
+            Camera& camera = rig.views[static_cast<std::size_t>(v)].camera;
+            camera = rs::in_ring_axes(camera, ring.rotation);
+        }
     }
     return rig;
 }
@@ -83,7 +95,7 @@ PlaneMapOptions default_plane_map(MapKind kind) {
 
 Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& options, Progress* progress) {
     RS_CHECK(!set.posed);  // with_rings() comes first
-    const std::vector<ViewRing> rings = find_rings(set.upright);
+    const std::vector<ViewRing> rings = set.rings.empty() ? find_rings(set.upright) : set.rings;
     RS_TRY(check_options(options.map, rings.size()));
     RS_TRY(check_irradiance(set));
 
@@ -96,7 +108,7 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
     object.width = set.width;
     object.height = set.height;
 
-    const Rig rig = in_object_radii(set.upright);
+    const Rig rig = in_ring_axes(in_object_radii(set.upright), rings);
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         Result<CapturedView> view = captured_view(rig.views[i].camera, options.map.planes);
         if (!view) {
@@ -108,6 +120,7 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
     if (progress != nullptr) progress->start("RS map", static_cast<std::int64_t>(rings.size()));
     for (const ViewRing& ring : rings) {
         object.rings.push_back(make_plane_map(rig, ring, options.map));
+        object.rings.back().rotation = ring.rotation;
         const double cells = cells_between_views(rig, ring, options.map);
         if (cells > 0 && cells < 2) {
             built.warnings.push_back(
@@ -119,7 +132,7 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
     if (progress != nullptr) progress->finish();
     if (rings.size() > 1) {
         built.warnings.push_back("the cameras form " + std::to_string(rings.size()) +
-                                 " rings of different elevation; each view is rendered from the nearest ring");
+                                 " rings; each view is rendered from the two nearest ones");
     }
     object.images.resize(object.views.size());
     const bool has_shape = options.raymap == MapKind::kShape;

@@ -4,6 +4,7 @@
 #include "encode/set/set_checks.hpp"
 #include "rayspace/base/parallel.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -38,7 +39,7 @@ Result<SignedVolume> reconstruct_surface(std::span<const PosedPhoto> photos, con
 std::string summary(std::size_t photos, const RingPlan& plan) {
     const auto whole = [](double degrees) { return std::to_string(std::lround(degrees)); };
     return "the cameras are not turntable rings: " + std::to_string(plan.rig.views.size()) + " views of " +
-           std::to_string(plan.rings) + " rings, at elevations of " + whole(plan.lowest_deg) + " to " +
+           std::to_string(plan.rings.size()) + " rings, at elevations of " + whole(plan.lowest_deg) + " to " +
            whole(plan.highest_deg) + " degrees, are synthesized from " + std::to_string(photos) + " photos";
 }
 
@@ -59,8 +60,11 @@ Result<CaptureSet> with_rings(CaptureSet set, const PosedOptions& options, Progr
     set.posed = false;
     set.upright.views = std::move(plan->rig.views);
     set.upright.object_radius = plan->rig.object_radius;
-    set.upright.extras.erase(kPosedKey);
+    // Views about other axes than Y are posed photos for other programs.
+    const bool has_cap = std::ranges::any_of(plan->rings, [](const ViewRing& r) { return !r.rotation.is_identity(); });
+    if (!has_cap) set.upright.extras.erase(kPosedKey);
     set.captured = set.upright;
+    set.rings = std::move(plan->rings);
     set.width = set.upright.views.front().camera.width;
     set.height = set.upright.views.front().camera.height;
     const ViewSynthesizer synthesizer(*photos, *surface, options.synthesis, progress);

@@ -2,6 +2,7 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
+#include "rayspace/geometry/ring_axes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,43 +18,87 @@ constexpr double kFrameMargin_px = 3;
 constexpr int kBytesPerPixel = 8;  // colour and depth
 constexpr double kLeastDensity = 0.5;
 constexpr double kOutermost = 0.02;  // share of the photos that are ignored at either end of the elevations
+constexpr int kLeastViewsOfArc = 3;
+constexpr double kArcMargin_deg = 10;  // rays of viewpoints farther away than the cameras lie beside the arc's views
 
-// Pixels per unit at the axis, of the photos in the middle.
-double photo_density(std::span<const PosedPhoto> photos) {
-    std::vector<double> densities;
-    for (const PosedPhoto& photo : photos) densities.push_back(photo.camera.fl_x / glm::length(photo.camera.centre()));
-    return median(densities);
+double elevation_of(const glm::dvec3& direction) {
+    return std::atan2(direction.y, std::hypot(direction.x, direction.z));
 }
 
-std::pair<double, double> elevation_range(std::span<const PosedPhoto> photos, double highest_rad) {
-    std::vector<double> elevations;
-    for (const PosedPhoto& photo : photos) {
-        const glm::dvec3 centre = photo.camera.centre();
-        elevations.push_back(
-            std::clamp(std::atan2(centre.y, std::hypot(centre.x, centre.z)), -highest_rad, highest_rad));
+// Elevations of the photos.
+struct Range {
+    double low = 0, high = 0;
+    [[nodiscard]] Range clamped(double largest) const {
+        return {std::clamp(low, -largest, largest), std::clamp(high, -largest, largest)};
     }
+};
+
+Range elevation_range(std::span<const PosedPhoto> photos) {
+    std::vector<double> elevations;
+    for (const PosedPhoto& photo : photos) elevations.push_back(elevation_of(photo.camera.centre()));
     std::ranges::sort(elevations);
     const auto ignored = static_cast<std::size_t>(kOutermost * static_cast<double>(elevations.size()));
     return {elevations[ignored], elevations[elevations.size() - 1 - ignored]};
 }
 
-// Cameras of a ring with the principal point at (0, 0).
-Rig make_upright_ring(double elevation_rad, int count, double distance, double px_per_unit) {
-    Rig ring;
-    for (int n = 0; n < count; ++n) {
-        const double azimuth = 2 * kPi * n / count;
-        const glm::dvec3 outwards(std::sin(azimuth), 0, std::cos(azimuth));
-        RigView view;
-        Camera& camera = view.camera;
-        const glm::dvec3 right(outwards.z, 0, -outwards.x);
-        camera.world_from_camera =
-            glm::dmat4(glm::dvec4(right, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(outwards, 0),
-                       glm::dvec4(distance * outwards + glm::dvec3(0, distance * std::tan(elevation_rad), 0), 1));
-        camera.fl_x = px_per_unit * distance;
-        camera.fl_y = camera.fl_x * std::cos(elevation_rad);
-        ring.views.push_back(std::move(view));
+// Values from `low` to `high`, at most `step` apart.
+std::vector<double> evenly(Range range, double step) {
+    const int steps = static_cast<int>(std::ceil((range.high - range.low) / step - 0.001));
+    std::vector<double> values;
+    for (int n = 0; n <= steps; ++n) {
+        values.push_back(steps == 0 ? (range.low + range.high) / 2 : range.low + (range.high - range.low) * n / steps);
     }
-    return ring;
+    return values;
+}
+
+// A ring or an arc of cameras, in the ring's axes.
+struct PlannedRing {
+    RingRotation rotation;
+    double elevation_rad = 0;
+    std::vector<double> azimuths_rad;
+};
+
+// Rings about the object's axis.
+void add_rings(Range elevations, const RingPlanOptions& options, std::vector<PlannedRing>& rings) {
+    for (const double elevation : evenly(elevations, radians(options.step_deg))) {
+        const int count = std::max(static_cast<int>(std::ceil(options.views * std::cos(elevation))), 8);
+        PlannedRing ring{{}, elevation, {}};
+        for (int n = 0; n < count; ++n) ring.azimuths_rad.push_back(2 * kPi * n / count);
+        rings.push_back(std::move(ring));
+    }
+}
+
+// Arcs about an axis across the object's that show it from the elevation `from_rad` on upwards (side = 1) or downwards
+// (-1).
+void add_cap(double from_rad, int side, const RingPlanOptions& options, std::vector<PlannedRing>& rings) {
+    // The ring's Z is the object's Y, its Y the object's X.
+    const RingRotation rotation =
+        ring_rotation(glm::transpose(glm::dmat3(glm::dvec3(0, 0, side), glm::dvec3(1, 0, 0), glm::dvec3(0, side, 0))));
+    const double half = kPi / 2 - from_rad;
+    for (const double elevation : evenly({-half, half}, radians(options.step_deg))) {
+        const double cosine = std::sin(from_rad - radians(options.step_deg) / 2) / std::cos(elevation);
+        if (cosine >= 1) continue;
+        const double reach = std::acos(cosine) + radians(kArcMargin_deg);
+        const int count = 1 + static_cast<int>(std::ceil(reach / kPi * options.views * std::cos(elevation)));
+        if (count < kLeastViewsOfArc) continue;
+        PlannedRing arc{rotation, elevation, {}};
+        for (int n = 0; n < count; ++n) arc.azimuths_rad.push_back(reach * (2.0 * n / (count - 1) - 1));
+        rings.push_back(std::move(arc));
+    }
+}
+
+// The camera of a ring in the ring's axes, with the principal point at (0, 0).
+Camera upright_camera_at(double azimuth, double elevation, double distance, double px_per_unit) {
+    const glm::dvec3 outwards(std::sin(azimuth), 0, std::cos(azimuth));
+    const glm::dvec3 right(outwards.z, 0, -outwards.x);
+    Camera camera;
+    camera.world_from_camera =
+        glm::dmat4(glm::dvec4(right, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(outwards, 0),
+                   glm::dvec4(distance * outwards + glm::dvec3(0, distance * std::tan(elevation), 0), 1));
+    // Rows and columns are as dense on the object as the photos' pixels.
+    camera.fl_x = px_per_unit * distance;
+    camera.fl_y = camera.fl_x * std::cos(elevation);
+    return camera;
 }
 
 struct Frame {
@@ -95,43 +140,67 @@ void frame_views(Rig& rig, const SignedVolume::Bounds& object) {
     }
 }
 
-Rig make_rig(const std::vector<double>& elevations, const SignedVolume::Bounds& object, const RingPlanOptions& options,
-             double px_per_unit) {
-    Rig rig;
-    rig.object_radius = object.radius;
-    for (const double elevation : elevations) {
-        const int count = std::max(static_cast<int>(std::lround(options.views * std::cos(elevation))),
-                                   std::min(options.least_views, options.views));
-        const Rig ring = make_upright_ring(elevation, count, options.distance_radii * object.radius, px_per_unit);
-        for (const RigView& view : ring.views) {
-            rig.views.push_back(view);
-            char name[32];
-            std::snprintf(name, sizeof name, "images/%04d.png", static_cast<int>(rig.views.size() - 1));
-            rig.views.back().file_path = name;
-        }
+// Distances and density of the photos' cameras in the middle.
+struct PhotoScale {
+    double distance = 0;
+    double px_per_unit = 0;  // at the axis
+};
+
+PhotoScale scale_of(std::span<const PosedPhoto> photos) {
+    std::vector<double> distances;
+    std::vector<double> densities;
+    for (const PosedPhoto& photo : photos) {
+        distances.push_back(glm::length(photo.camera.centre()));
+        densities.push_back(photo.camera.fl_x / distances.back());
     }
-    frame_views(rig, object);
-    return rig;
+    return {median(distances), median(densities)};
+}
+
+void add_views(const std::vector<PlannedRing>& planned, const PhotoScale& scale, const RingPlanOptions& options,
+               RingPlan& plan) {
+    plan.rig.views.clear();
+    plan.rings.clear();
+    for (const PlannedRing& ring : planned) {
+        const double distance = std::max(scale.distance * std::cos(ring.elevation_rad),
+                                         options.least_distance_radii * plan.rig.object_radius);
+        ViewRing views{ring.elevation_rad, {}, ring.rotation};
+        for (const double azimuth : ring.azimuths_rad) {
+            views.views.push_back(static_cast<int>(plan.rig.views.size()));
+            char name[32];
+            std::snprintf(name, sizeof name, "images/%04d.png", views.views.back());
+            RigView& view = plan.rig.views.emplace_back();
+            view.file_path = name;
+            view.camera = in_object_axes(upright_camera_at(azimuth, ring.elevation_rad, distance, scale.px_per_unit),
+                                         ring.rotation);
+        }
+        plan.rings.push_back(std::move(views));
+    }
 }
 
 }  // namespace
 
 Result<RingPlan> plan_rings(std::span<const PosedPhoto> photos, const SignedVolume::Bounds& object,
                             const RingPlanOptions& options) {
+    const Range photographed = elevation_range(photos);
+    const double steepest = radians(options.steepest_deg);
+    const double beyond = steepest + radians(options.step_deg) / 2;
+    std::vector<PlannedRing> planned;
+    add_rings(photographed.clamped(steepest), options, planned);
+    if (photographed.high > beyond) add_cap(steepest, 1, options, planned);
+    if (photographed.low < -beyond) add_cap(steepest, -1, options, planned);
+
     RingPlan plan;
-    const auto [lowest, highest] = elevation_range(photos, radians(options.highest_deg));
-    const double range_deg = degrees(highest - lowest);
-    plan.rings = 1 + static_cast<int>(std::ceil(range_deg / options.step_deg - 0.01));
-    std::vector<double> elevations;
-    for (int r = 0; r < plan.rings; ++r) {
-        elevations.push_back(plan.rings == 1 ? (lowest + highest) / 2
-                                             : lowest + (highest - lowest) * r / (plan.rings - 1));
-    }
-    plan.lowest_deg = degrees(elevations.front());
-    plan.highest_deg = degrees(elevations.back());
-    double density = photo_density(photos);
+    plan.lowest_deg = photographed.low < -beyond ? -90 : degrees(photographed.low);
+    plan.highest_deg = photographed.high > beyond ? 90 : degrees(photographed.high);
+    const bool has_cap = !planned.back().rotation.is_identity();
+    const double half_height = std::max(std::abs(object.low.y), std::abs(object.high.y));
+    plan.rig.object_radius = has_cap ? std::hypot(object.radius, half_height) : object.radius;
+    PhotoScale scale = scale_of(photos);
+    const double density = scale.px_per_unit;
     for (double part = 1; part >= kLeastDensity; part *= 0.9) {
-        plan.rig = make_rig(elevations, object, options, part * density);
+        scale.px_per_unit = part * density;
+        add_views(planned, scale, options, plan);
+        frame_views(plan.rig, object);
         const Camera& camera = plan.rig.views.front().camera;
         const auto bytes =
             static_cast<std::int64_t>(plan.rig.views.size()) * camera.width * camera.height * kBytesPerPixel;

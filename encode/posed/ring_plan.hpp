@@ -1,10 +1,10 @@
 #pragma once
 // Plan of the rings of upright cameras whose synthesized views make a ray-space object.
 //
-// Upright images of a steep camera are stretched along their rows: by the tangent of its elevation, and unevenly where
-// it is near. So the cameras stand at one horizontal distance from the axis, several object radii, at any elevation,
-// and their vertical focal length is shorter by the elevation's cosine: rows and columns are as dense on the object as
-// the photos' pixels.
+// A view is rendered best by a ring at its own elevation and distance, so the cameras stand as far from the object as
+// the photos' cameras do, at all elevations that the photos have. Upright images are stretched along their rows by the
+// tangent of the elevation. Views from above and below therefore come from a cap: arcs of upright cameras about an
+// axis across the object's.
 
 #include "encode/posed/posed_photo.hpp"
 #include "encode/posed/signed_volume.hpp"
@@ -13,22 +13,22 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace rs::encode {
 
 struct RingPlanOptions {
-    double step_deg = 15;     // largest distance of two rings
-    double highest_deg = 75;  // rings nearer to the vertical show what this ring does
-    int views = 48;           // of a level ring; fewer in steep rings, whose cameras are nearer to each other
-    int least_views = 24;
-    double distance_radii = 6;                          // from the axis, horizontally
+    double step_deg = 10;                               // largest distance of two rings
+    double steepest_deg = 50;                           // elevation of a ring about the object's axis
+    int views = 48;                                     // of a level ring; they are as dense in the others
+    double least_distance_radii = 1.6;                  // from a ring's axis
     std::int64_t memory_bytes = std::int64_t{2} << 30;  // of all views at 8 bytes per pixel
 };
 
 struct RingPlan {
-    Rig rig;  // of all rings, upright, with object_radius
-    int rings = 0;
-    double lowest_deg = 0, highest_deg = 0;
+    Rig rig;  // views of all rings, in the object's axes, with object_radius
+    std::vector<ViewRing> rings;
+    double lowest_deg = 0, highest_deg = 0;  // 90: there is a cap
 };
 
 /// Plans rings for the elevations that the photos have, but for the outermost of many. Error: the views take more than

@@ -257,7 +257,6 @@ Status RingDepthEstimator::enforce_consistency(Progress* progress, std::vector<D
 }
 
 void RingDepthEstimator::use_known_depths() {
-    sample_hull();
     for_each_index(views_.size(), [&](std::size_t n) {
         DepthView& view = views_[n];
         const SynthesizedView& known = *set_.synthesized[static_cast<std::size_t>(ring_.views[n])];

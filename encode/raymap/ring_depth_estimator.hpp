@@ -2,8 +2,7 @@
 // Depth estimation for one ring of photos and one layer of surfaces. Its steps share the photos, their depth maps and
 // the visual hull, and run in this order: read_photos(), choose_hull(), complete_masks() and, if that has painted
 // anything, choose_hull() again, repair_silhouettes(), match_colors(), enforce_consistency(), make_shape(). Views with
-// a known surface (CaptureSet::synthesized) need read_photos(), choose_hull(), use_known_depths() and make_shape()
-// only.
+// a known surface (CaptureSet::synthesized) need read_photos(), use_known_depths() and make_shape() only.
 
 #include "encode/raymap/cost_volume.hpp"
 #include "encode/raymap/shape_map.hpp"
@@ -63,7 +62,7 @@ public:
     [[nodiscard]] bool has_soft_pixels() const;
 
     [[nodiscard]] SurfaceLayer surfaces() const {
-        return {views_, *sampled_hull_, silhouettes_agree_, layer_ == Layer::kSolid};
+        return {views_, sampled_hull_.get(), silhouettes_agree_, layer_ == Layer::kSolid};
     }
 
     [[nodiscard]] ShapeMap make_shape(const std::vector<SurfaceLayer>& layers, int planes) const;

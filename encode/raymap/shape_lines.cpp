@@ -154,15 +154,10 @@ public:
                 cells_[static_cast<std::size_t>(p * grid_.bands + h)] = make_cell(found_);
             }
         }
-        std::vector<std::uint8_t> meets_hull(cells_.size(), 0);
-        HullColumns hull(grid_, layer.hull);
-        for (int p = 0; p < grid_.p_cells; ++p) {
-            const auto column = static_cast<std::size_t>(p * grid_.bands);
-            clamp_to_hull(grid_, CellRay(grid_, photos.viewpoint, p), hull, cells_.data() + column,
-                          meets_hull.data() + column);
+        if (layer.hull != nullptr) {
+            move_into_hull(layer, photos.viewpoint);
+            if (layer.in_front) remove_small_components(grid_, floating_share, cells_.data());
         }
-        if (layer.silhouettes_agree) remove_cells_outside_hull(grid_, meets_hull, cells_.data());
-        if (layer.in_front) remove_small_components(grid_, floating_share, cells_.data());
         for (int p = 0; p < grid_.p_cells; ++p) {
             ShapeCell* const column = cells_.data() + p * grid_.bands;
             if (!layer.in_front) avoid_foreground(grid_, photos, p, column);
@@ -173,6 +168,16 @@ public:
     }
 
 private:
+    void move_into_hull(const SurfaceLayer& layer, const glm::dvec2& viewpoint) {
+        std::vector<std::uint8_t> meets_hull(cells_.size(), 0);
+        HullColumns hull(grid_, *layer.hull);
+        for (int p = 0; p < grid_.p_cells; ++p) {
+            const auto column = static_cast<std::size_t>(p * grid_.bands);
+            clamp_to_hull(grid_, CellRay(grid_, viewpoint, p), hull, cells_.data() + column,
+                          meets_hull.data() + column);
+        }
+        if (layer.silhouettes_agree) remove_cells_outside_hull(grid_, meets_hull, cells_.data());
+    }
     // The depths that the photos have within a cell.
     void find_depths(int p, int h) {
         found_.clear();

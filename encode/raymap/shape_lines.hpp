@@ -27,10 +27,10 @@ struct ShapeLinesOptions {
     double max_gap_deg = 45.01;  // wider gaps have no lines
 };
 
-/// The depth maps of one layer of surfaces, and the hull that encloses them.
+/// The depth maps of one layer of surfaces, and the hull that encloses them; null if the depths are exact.
 struct SurfaceLayer {
     const std::vector<DepthView>& ring;  // in turning order, each with depth and occluders
-    const SampledHull& hull;
+    const SampledHull* hull;
     bool silhouettes_agree = true;  // false: the hull moves surfaces but removes none, and all are shown by both photos
     bool in_front = true;           // false: the photos' other pixels may cover this layer
 };

@@ -36,6 +36,13 @@ Result<ShapeMapOutput> add_shape_maps(const ShapeMapInput& input, const ShapeOpt
         estimators.emplace_back(set, rig, ring, options);
         RS_TRY(estimators.back().read_photos(progress, keep));
     }
+    if (!set.synthesized.empty()) {
+        for (std::size_t r = 0; r < rings.size(); ++r) {
+            estimators[r].use_known_depths();
+            object.rings[r].shape = estimators[r].make_shape({estimators[r].surfaces()}, object.rings[r].planes);
+        }
+        return found;
+    }
     const auto choose_hulls = [&] {
         for (std::size_t r = 0; r < rings.size(); ++r) {
             std::vector<const RingDepthEstimator*> beside;
@@ -45,13 +52,6 @@ Result<ShapeMapOutput> add_shape_maps(const ShapeMapInput& input, const ShapeOpt
         }
     };
     choose_hulls();
-    if (!set.synthesized.empty()) {
-        for (std::size_t r = 0; r < rings.size(); ++r) {
-            estimators[r].use_known_depths();
-            object.rings[r].shape = estimators[r].make_shape({estimators[r].surfaces()}, object.rings[r].planes);
-        }
-        return found;
-    }
     CaptureSet whole = set;  // with completed masks
     const auto keep_completed = [&](int v, const Image<Rgba8>& image) {
         keep(v, image);

@@ -36,6 +36,7 @@ struct CaptureSet {
     std::filesystem::path folder;  // of `file`
     Rig captured;                  // as read
     Rig upright;                   // cameras of the images returned by read_upright_image; object_radius is set
+    std::vector<ViewRing> rings;   // of `upright`; empty: those that find_rings() finds
     bool resampled = false;
     // True: the cameras are not rings, `upright` equals `captured`, and sizes may differ. To be encoded, the set needs
     // with_rings() (encode/posed/posed_rings.hpp).

@@ -1,8 +1,14 @@
 // Rings planned for posed photos, and the whole way from posed photos to views of an object.
 
 #include "encode/posed/posed_rings.hpp"
+#include "encode/build.hpp"
 #include "encode/evaluation/evaluation.hpp"
 #include "encode/set/set_checks.hpp"
+#include "engine/core/definition/view_registers.hpp"
+#include "engine/core/fast/renderer.hpp"
+#include "rayspace/format/object_file.hpp"
+#include "rayspace/geometry/ring_axes.hpp"
+#include "rayspace/image/image_metrics.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "tests/encode/posed/posed_ball.hpp"
 #include "tests/support/drawn_set.hpp"
@@ -21,18 +27,47 @@ TEST(RingPlan, UprightCamerasContainTheObjectAtTheDensityOfThePhotos) {
     const std::vector<PosedPhoto> photos = photos_of_ball(60, 100);
     const Result<RingPlan> plan = plan_rings(photos, kBall, {});
     ASSERT_TRUE(plan.ok()) << plan.error().message;
-    EXPECT_NEAR(plan->highest_deg, 75, 4);
-    EXPECT_EQ(find_rings(plan->rig).size(), static_cast<std::size_t>(plan->rings));
+    EXPECT_EQ(plan->highest_deg, 90);  // photos reach 80 degrees
+    std::size_t views = 0;
     const double photo_px = photos[0].camera.fl_x / 3.5;  // per unit at the axis
-    for (const RigView& view : plan->rig.views) {
-        EXPECT_TRUE(is_upright(view.camera));
-        const glm::dvec3 top = view.camera.project({0, kBallRadius, 0});
-        const glm::dvec3 side = view.camera.project(kBallRadius * view.camera.right());
-        EXPECT_NEAR(side.x - view.camera.project({0, 0, 0}).x, photo_px * kBallRadius, 1e-6);
-        for (const glm::dvec3& seen : {top, side}) {
-            EXPECT_TRUE(seen.x > 0 && seen.y > 0 && seen.x < view.camera.width && seen.y < view.camera.height);
+    for (const ViewRing& ring : plan->rings) {
+        views += ring.views.size();
+        EXPECT_LE(std::abs(degrees(ring.elevation_rad)), 50.001);
+        for (const int v : ring.views) {
+            const Camera& camera = plan->rig.views[static_cast<std::size_t>(v)].camera;
+            EXPECT_TRUE(is_upright(in_ring_axes(camera, ring.rotation)));
+            const glm::dvec3 side = camera.project(kBallRadius * camera.right());
+            EXPECT_NEAR(side.x - camera.project({0, 0, 0}).x, photo_px * kBallRadius, 1e-6);
+            for (const glm::dvec3& seen : {camera.project({0, kBallRadius, 0}), side}) {
+                EXPECT_TRUE(seen.x > 0 && seen.y > 0 && seen.x < camera.width && seen.y < camera.height);
+            }
         }
     }
+    EXPECT_EQ(views, plan->rig.views.size());
+}
+
+TEST(RingPlan, EveryDirectionAboveTheLowestPhotoIsNearAView) {
+    const std::vector<PosedPhoto> photos = photos_of_ball(60, 100);
+    const Result<RingPlan> plan = plan_rings(photos, kBall, {});
+    ASSERT_TRUE(plan.ok()) << plan.error().message;
+    for (int n = 0; n < 500; ++n) {
+        const glm::dvec3 direction = glm::normalize(posed_camera(n, 500, 8, 90).centre());
+        double nearest = -1;
+        for (const RigView& view : plan->rig.views) {
+            nearest = std::max(nearest, glm::dot(direction, glm::normalize(view.camera.centre())));
+        }
+        EXPECT_LT(degrees(std::acos(nearest)), 7.5) << glm::degrees(std::asin(direction.y));
+    }
+}
+
+TEST(RingPlan, PhotosOfModerateElevationNeedNoCap) {
+    std::vector<PosedPhoto> photos;
+    for (int n = 0; n < 40; ++n) photos.push_back({"", posed_camera(n, 40, 64, 45), {}});
+    const Result<RingPlan> plan = plan_rings(photos, kBall, {});
+    ASSERT_TRUE(plan.ok()) << plan.error().message;
+    EXPECT_TRUE(std::ranges::all_of(plan->rings, [](const ViewRing& r) { return r.rotation.is_identity(); }));
+    EXPECT_EQ(find_rings(plan->rig).size(), plan->rings.size());
+    EXPECT_DOUBLE_EQ(plan->rig.object_radius, kBallRadius);
 }
 
 TEST(RingPlan, ViewsThatTakeTooMuchMemoryAreRefused) {
@@ -74,6 +109,39 @@ TEST(PosedRings, HeldOutPhotosAreRenderedByTheEngine) {
     ASSERT_TRUE(scores.ok()) << scores.error().message;
     EXPECT_GT((*scores)[1].mean_psnr_db, 17);
     EXPECT_GT((*scores)[1].mean_psnr_db, (*scores)[0].mean_psnr_db + 5);
+}
+
+TEST(PosedRings, TheBallIsSeenFromStraightAbove) {
+    const test::TemporaryFolder folder;
+    constexpr int kPhotos = 40;
+    Rig rig;
+    rig.extras[kPosedKey] = true;
+    for (int n = 0; n < kPhotos; ++n) {
+        RigView view;
+        view.camera = posed_camera(n, kPhotos, 64);
+        view.file_path = std::to_string(n) + ".png";
+        ASSERT_TRUE(write_png(folder / view.file_path, mottled_ball(view.camera)).ok());
+        rig.views.push_back(std::move(view));
+    }
+    ASSERT_TRUE(write_rig(folder / kRigFileName, rig).ok());
+    Result<CaptureSet> set = open_capture_set(folder.path());
+    ASSERT_TRUE(set.ok()) << set.error().message;
+    PosedOptions options;
+    options.rings.step_deg = 20;
+    options.rings.views = 24;
+    const Result<CaptureSet> rings = with_rings(std::move(*set), options);
+    ASSERT_TRUE(rings.ok()) << rings.error().message;
+    Result<BuiltObject> built = build_object(*rings, {});
+    ASSERT_TRUE(built.ok()) << built.error().message;
+    ASSERT_TRUE(validate_object(built->object, "ball").ok());
+    const auto renderer = engine::Renderer::create(std::move(built->object));
+    ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+    const Camera above = look_at_camera({0, 3.5, 0}, {0, 0, 0}, 0.62, 64, 64);
+    const Result<engine::MixedView> view = engine::prepare_mixed_view(renderer->object(), above);
+    ASSERT_TRUE(view.ok()) << view.error().message;
+    Image<Rgba8> image(64, 64);
+    renderer->render(*view, image);
+    EXPECT_GT(compare_images(mottled_ball(above), image).psnr_db(), 17);
 }
 
 }  // namespace
