@@ -23,7 +23,7 @@ double azimuth_of(const Ring& ring, std::size_t view) {
 }
 
 bool is_closed(const ShapeMap& shape) {
-    return std::ranges::all_of(shape.gaps, [](const ShapeGap& gap) { return gap.lines > 0; });
+    return std::all_of(shape.gaps.begin(), shape.gaps.end(), [](const ShapeGap& gap) { return gap.lines > 0; });
 }
 
 // The angle from azimuth `from` to `to` in turning order, 0..2 pi.
@@ -99,13 +99,13 @@ double mixing_range(const RaySpaceObject& object, const Ring& nearest, const Rin
 RingChoice choose_rings(const RaySpaceObject& object, const glm::dvec3& viewpoint) {
     std::vector<double> distances;
     for (const Ring& ring : object.rings) distances.push_back(distance_to(ring, viewpoint));
-    const auto nearest = std::ranges::min_element(distances);
+    const auto nearest = std::min_element(distances.begin(), distances.end());
     RingChoice choice;
     choice.nearest = static_cast<int>(nearest - distances.begin());
     if (object.rings.size() < 2) return choice;
     const double to_nearest = *nearest;
     *nearest = std::numeric_limits<double>::max();
-    const auto second = std::ranges::min_element(distances);
+    const auto second = std::min_element(distances.begin(), distances.end());
     const auto beside = static_cast<std::size_t>(second - distances.begin());
     const double range =
         mixing_range(object, object.rings[static_cast<std::size_t>(choice.nearest)], object.rings[beside], viewpoint);

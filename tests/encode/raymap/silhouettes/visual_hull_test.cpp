@@ -198,8 +198,8 @@ TEST(ShapeLines, NothingFloatsBesideTheObjectWhereSilhouettesAgree) {
     }
     ShapeLinesOptions options;
     options.line_deg = 30;
-    const ShapeMap clean = make_shape_lines({{.ring = found, .hull = hull}}, options);
-    const ShapeMap all = make_shape_lines({{.ring = found, .hull = hull, .silhouettes_agree = false}}, options);
+    const ShapeMap clean = make_shape_lines({{.ring = found, .hull = &hull}}, options);
+    const ShapeMap all = make_shape_lines({{.ring = found, .hull = &hull, .silhouettes_agree = false}}, options);
     ASSERT_EQ(clean.cells.size(), all.cells.size());
 
     const CellPlaces places(all, 0.5 * (views[0].centre + views[1].centre));
@@ -244,7 +244,7 @@ TEST(ShapeLines, NoImageHidesWhatStandsBehind) {
     options.line_deg = 30;
     const glm::dvec2 viewpoint = 0.5 * (gauze[0].view.centre + gauze[1].view.centre);
     const auto hidden_and_shown = [&](bool in_front) {
-        const ShapeMap map = make_shape_lines({{.ring = gauze, .hull = everywhere, .in_front = in_front}}, options);
+        const ShapeMap map = make_shape_lines({{.ring = gauze, .hull = &everywhere, .in_front = in_front}}, options);
         const CellPlaces places(map, viewpoint);
         std::array<int, 2> hidden_shown{};
         for (int pi = 0; pi < map.p_cells; ++pi) {
