@@ -2,6 +2,7 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/geometry/rig_conventions.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
@@ -48,19 +49,6 @@ std::optional<std::string> lens_fault(const json& keys) {
     return std::nullopt;
 }
 
-// Horizontal distance by which the optical axis approaches the Y axis per unit; negative if it looks away.
-double approach(const Camera& camera) {
-    const glm::dvec3 centre = camera.centre();
-    const glm::dvec3 forward = camera.forward();
-    return -(forward.x * centre.x + forward.z * centre.z);
-}
-
-Camera with_opengl_axes(Camera camera) {
-    camera.world_from_camera[1] = -camera.world_from_camera[1];
-    camera.world_from_camera[2] = -camera.world_from_camera[2];
-    return camera;
-}
-
 Status check_lenses(const Rig& rig, const std::filesystem::path& file) {
     const std::string where = file.string();
     if (rig.views.empty()) return Error{where + ": has no frames; a capture set needs at least one image"};
@@ -89,31 +77,30 @@ Status check_alpha(const Rig& rig, const std::filesystem::path& file) {
 
 }  // namespace
 
-bool convert_opencv_axes(Rig& rig) {
-    const auto looks_away = [](const RigView& view) { return approach(view.camera) < 0; };
-    if (rig.views.size() < 3 || !std::ranges::all_of(rig.views, looks_away)) return false;
-    for (RigView& view : rig.views) view.camera = with_opengl_axes(view.camera);
-    return true;
-}
-
 void remove_repeated_frames(Rig& rig, const std::filesystem::path& file, std::vector<std::string>& warnings) {
     std::map<std::string, std::size_t> first_of;  // index in `kept`
     std::vector<RigView> kept;
+    std::vector<std::string> repeated, shared;
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         RigView& view = rig.views[i];
         const auto [known, is_new] = first_of.try_emplace(view.file_path, kept.size());
-        const std::string place = file.string() + ": frame " + std::to_string(i);
+        const std::string place = "frame " + std::to_string(i) + " (" + printable(view.file_path) + ")";
         if (!is_new && kept[known->second].camera.world_from_camera == view.camera.world_from_camera) {
-            warnings.push_back(place + " repeats an earlier one (" + printable(view.file_path) + "); left out");
+            repeated.push_back(place);
             continue;
         }
-        if (!is_new) {
-            warnings.push_back(place + " has the image of an earlier one (" + printable(view.file_path) +
-                               ") and another camera; correct one of them");
-        }
+        if (!is_new) shared.push_back(place);
         kept.push_back(std::move(view));
     }
     rig.views = std::move(kept);
+    const auto warn = [&](const std::vector<std::string>& places, const std::string& fault) {
+        if (places.empty()) return;
+        warnings.push_back(file.string() + ": " + std::to_string(places.size()) +
+                           (places.size() == 1 ? " frame has" : " frames have") +
+                           " the image of an earlier frame and " + fault + ": " + listed(places, 3));
+    };
+    warn(repeated, "its camera; left out");
+    warn(shared, "another camera; correct one of them");
 }
 
 bool is_posed(const Rig& rig) {

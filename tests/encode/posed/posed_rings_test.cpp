@@ -3,6 +3,7 @@
 #include "encode/posed/posed_rings.hpp"
 #include "encode/evaluation/evaluation.hpp"
 #include "encode/set/set_checks.hpp"
+#include "rayspace/geometry/rig_conventions.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "tests/encode/posed/posed_ball.hpp"
 #include "tests/support/drawn_set.hpp"
