@@ -3,10 +3,10 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/geometry/rig_conventions.hpp"
+#include "rayspace/geometry/rig_lens.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -18,33 +18,16 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 7> kPinholeModels = {"PINHOLE", "SIMPLE_PINHOLE", "OPENCV",     "SIMPLE_RADIAL",
-                                                            "RADIAL",  "FULL_OPENCV",    "perspective"};
-// Distortion coefficients by the names of NeRF tools and of COLMAP.
-constexpr std::array kDistortionKeys = {"k", "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"};
-constexpr std::array kOtherLensFlags = {"is_fisheye", "latlong", "equirectangular", "is_equirectangular"};
-
-bool is_set(const json& value) {
+bool is_nonzero(const json& value) {
     return (value.is_boolean() && value.get<bool>()) || (value.is_number() && value.get<double>() != 0);
 }
 
-// Reason why the lens stated by the keys is not a pinhole without distortion; nullopt if it is one.
-std::optional<std::string> lens_fault(const json& keys) {
-    for (const char* const key : {"camera_model", "camera_type"}) {
-        if (!keys.contains(key) || !keys[key].is_string()) continue;
-        const auto model = keys[key].get<std::string>();
-        if (std::ranges::find(kPinholeModels, model) == kPinholeModels.end()) {
-            return std::string(key) + " is " + printable(model.substr(0, 40)) + ", not a pinhole";
-        }
-    }
-    for (const auto& [key, value] : keys.items()) {
-        if (key.starts_with("ftheta_")) return key + " is not of a pinhole";
-    }
-    for (const char* const key : kOtherLensFlags) {
-        if (keys.contains(key) && is_set(keys[key])) return std::string(key) + " is set, not a pinhole";
-    }
-    for (const char* const key : kDistortionKeys) {
-        if (keys.contains(key) && is_set(keys[key])) return std::string("lens distortion: ") + key + " is not 0";
+// Reason why the lens is not a pinhole without distortion; nullopt if it is one.
+std::optional<std::string> lens_fault(const json& file, const json& frame) {
+    const StatedLens lens = stated_lens(file, frame);
+    if (lens.kind != LensKind::kPinhole) return lens.stated + " is not a pinhole";
+    for (const std::string_view key : kDistortionKeys) {
+        if (is_nonzero(stated_key(file, frame, key))) return "lens distortion: " + std::string(key) + " is not 0";
     }
     return std::nullopt;
 }
@@ -53,9 +36,9 @@ Status check_lenses(const Rig& rig, const std::filesystem::path& file) {
     const std::string where = file.string();
     if (rig.views.empty()) return Error{where + ": has no frames; a capture set needs at least one image"};
     constexpr const char* kUndistort = "; undistort the images first";
-    if (const auto fault = lens_fault(rig.extras)) return Error{where + ": " + *fault + kUndistort};
+    if (const auto fault = lens_fault(rig.extras, json::object())) return Error{where + ": " + *fault + kUndistort};
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
-        if (const auto fault = lens_fault(rig.views[i].extras)) {
+        if (const auto fault = lens_fault(json::object(), rig.views[i].extras)) {
             return Error{where + ": frame " + std::to_string(i) + ": " + *fault + kUndistort};
         }
     }
