@@ -372,6 +372,7 @@ Result<PosedImportReport> import_posed_checked(const PosedImportOptions& options
     if (failure) return Error{options.output.string() + ": cannot be written (" + failure.message() + ")"};
 
     PosedImportReport report;
+    report.notes = model.notes;
     report.without_camera = std::move(matches.without_camera);
     report.without_photo = std::move(matches.without_photo);
     RS_ASSIGN_OR_RETURN(std::vector<ImportedPhoto> imported, import_groups(matches, options, set, report, progress));

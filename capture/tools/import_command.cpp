@@ -252,7 +252,10 @@ Result<bool> has_posed_cameras(const ImportCommandLine& given, ImportOptions& op
         options.known = std::move(turn).value();
         return false;
     }
-    if (!turn_options(given).empty() || !read_camera_file(given.known)) return turn.error();
+    const Result<PosedModel> posed = read_camera_file(given.known);
+    const bool is_folder = std::filesystem::is_directory(given.known, ignored);
+    if (!posed && is_folder && !has_transforms) return posed.error();
+    if (!turn_options(given).empty() || !posed) return turn.error();
     return true;
 }
 

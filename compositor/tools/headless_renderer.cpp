@@ -9,9 +9,23 @@
 
 namespace rs::compositor {
 
+namespace {
+
+// Lines and points have no surface for rays to meet.
+void warn_of_lines(const Scene& scene, const std::string& name) {
+    const auto count = std::ranges::count_if(
+        scene.geometry, [](const GeometryNode& node) { return node.mesh->topology != Topology::kTriangles; });
+    if (count == 0) return;
+    print_warnings({name + ": " + std::to_string(count) + (count == 1 ? " shape" : " shapes") +
+                    " of lines or points cannot be traced; --renderer raster draws them"});
+}
+
+}  // namespace
+
 Result<std::shared_ptr<TracedRenderer>> make_tracer(const LoadedScene& loaded, const RendererOptions& options,
                                                     const std::string& name) {
     RS_ASSIGN_OR_RETURN(const TracedOptions traced, traced_options(options));
+    warn_of_lines(loaded.scene, name);
     RS_ASSIGN_OR_RETURN(const std::vector<PlacedObject> objects, loaded.all_objects());
     Result<TracedRenderer> tracer = TracedRenderer::create(loaded.scene, objects, traced);
     if (!tracer) return Error{name + ": " + tracer.error().message};

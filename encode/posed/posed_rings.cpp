@@ -3,6 +3,7 @@
 #include "encode/posed/depth_fusion.hpp"
 #include "encode/set/set_checks.hpp"
 #include "rayspace/base/parallel.hpp"
+#include "rayspace/geometry/rig_conventions.hpp"
 
 #include <algorithm>
 #include <cmath>

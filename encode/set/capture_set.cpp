@@ -7,6 +7,7 @@
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_reference.hpp"
 #include "rayspace/geometry/ray_space.hpp"
+#include "rayspace/geometry/rig_conventions.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
 #include <unistd.h>
@@ -161,9 +162,8 @@ Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress*
     set.file = rig_file(path);
     set.folder = set.file.parent_path();
     RS_ASSIGN_OR_RETURN(Rig rig, read_rig(path));
-    if (convert_opencv_axes(rig)) {
-        set.warnings.push_back(set.file.string() +
-                               ": all cameras look away from the object; their axes are taken as OpenCV's (Y down)");
+    for (const std::string& message : apply_rig_conventions(rig)) {
+        set.warnings.push_back(set.file.string() + ": " + message);
     }
     remove_repeated_frames(rig, set.file, set.warnings);
     set.posed = is_posed(rig);

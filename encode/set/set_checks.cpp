@@ -2,10 +2,11 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/geometry/rig_conventions.hpp"
+#include "rayspace/geometry/rig_lens.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -17,57 +18,27 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 7> kPinholeModels = {"PINHOLE", "SIMPLE_PINHOLE", "OPENCV",     "SIMPLE_RADIAL",
-                                                            "RADIAL",  "FULL_OPENCV",    "perspective"};
-// Distortion coefficients by the names of NeRF tools and of COLMAP.
-constexpr std::array kDistortionKeys = {"k", "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"};
-constexpr std::array kOtherLensFlags = {"is_fisheye", "latlong", "equirectangular", "is_equirectangular"};
-
-bool is_set(const json& value) {
+bool is_nonzero(const json& value) {
     return (value.is_boolean() && value.get<bool>()) || (value.is_number() && value.get<double>() != 0);
 }
 
-// Reason why the lens stated by the keys is not a pinhole without distortion; nullopt if it is one.
-std::optional<std::string> lens_fault(const json& keys) {
-    for (const char* const key : {"camera_model", "camera_type"}) {
-        if (!keys.contains(key) || !keys[key].is_string()) continue;
-        const auto model = keys[key].get<std::string>();
-        if (std::ranges::find(kPinholeModels, model) == kPinholeModels.end()) {
-            return std::string(key) + " is " + printable(model.substr(0, 40)) + ", not a pinhole";
-        }
-    }
-    for (const auto& [key, value] : keys.items()) {
-        if (key.starts_with("ftheta_")) return key + " is not of a pinhole";
-    }
-    for (const char* const key : kOtherLensFlags) {
-        if (keys.contains(key) && is_set(keys[key])) return std::string(key) + " is set, not a pinhole";
-    }
-    for (const char* const key : kDistortionKeys) {
-        if (keys.contains(key) && is_set(keys[key])) return std::string("lens distortion: ") + key + " is not 0";
+// Reason why the lens is not a pinhole without distortion; nullopt if it is one.
+std::optional<std::string> lens_fault(const json& file, const json& frame) {
+    const StatedLens lens = stated_lens(file, frame);
+    if (lens.kind != LensKind::kPinhole) return lens.stated + " is not a pinhole";
+    for (const std::string_view key : kDistortionKeys) {
+        if (is_nonzero(stated_key(file, frame, key))) return "lens distortion: " + std::string(key) + " is not 0";
     }
     return std::nullopt;
-}
-
-// Horizontal distance by which the optical axis approaches the Y axis per unit; negative if it looks away.
-double approach(const Camera& camera) {
-    const glm::dvec3 centre = camera.centre();
-    const glm::dvec3 forward = camera.forward();
-    return -(forward.x * centre.x + forward.z * centre.z);
-}
-
-Camera with_opengl_axes(Camera camera) {
-    camera.world_from_camera[1] = -camera.world_from_camera[1];
-    camera.world_from_camera[2] = -camera.world_from_camera[2];
-    return camera;
 }
 
 Status check_lenses(const Rig& rig, const std::filesystem::path& file) {
     const std::string where = file.string();
     if (rig.views.empty()) return Error{where + ": has no frames; a capture set needs at least one image"};
     constexpr const char* kUndistort = "; undistort the images first";
-    if (const auto fault = lens_fault(rig.extras)) return Error{where + ": " + *fault + kUndistort};
+    if (const auto fault = lens_fault(rig.extras, json::object())) return Error{where + ": " + *fault + kUndistort};
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
-        if (const auto fault = lens_fault(rig.views[i].extras)) {
+        if (const auto fault = lens_fault(json::object(), rig.views[i].extras)) {
             return Error{where + ": frame " + std::to_string(i) + ": " + *fault + kUndistort};
         }
     }
@@ -89,31 +60,30 @@ Status check_alpha(const Rig& rig, const std::filesystem::path& file) {
 
 }  // namespace
 
-bool convert_opencv_axes(Rig& rig) {
-    const auto looks_away = [](const RigView& view) { return approach(view.camera) < 0; };
-    if (rig.views.size() < 3 || !std::ranges::all_of(rig.views, looks_away)) return false;
-    for (RigView& view : rig.views) view.camera = with_opengl_axes(view.camera);
-    return true;
-}
-
 void remove_repeated_frames(Rig& rig, const std::filesystem::path& file, std::vector<std::string>& warnings) {
     std::map<std::string, std::size_t> first_of;  // index in `kept`
     std::vector<RigView> kept;
+    std::vector<std::string> repeated, shared;
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         RigView& view = rig.views[i];
         const auto [known, is_new] = first_of.try_emplace(view.file_path, kept.size());
-        const std::string place = file.string() + ": frame " + std::to_string(i);
+        const std::string place = "frame " + std::to_string(i) + " (" + printable(view.file_path) + ")";
         if (!is_new && kept[known->second].camera.world_from_camera == view.camera.world_from_camera) {
-            warnings.push_back(place + " repeats an earlier one (" + printable(view.file_path) + "); left out");
+            repeated.push_back(place);
             continue;
         }
-        if (!is_new) {
-            warnings.push_back(place + " has the image of an earlier one (" + printable(view.file_path) +
-                               ") and another camera; correct one of them");
-        }
+        if (!is_new) shared.push_back(place);
         kept.push_back(std::move(view));
     }
     rig.views = std::move(kept);
+    const auto warn = [&](const std::vector<std::string>& places, const std::string& fault) {
+        if (places.empty()) return;
+        warnings.push_back(file.string() + ": " + std::to_string(places.size()) +
+                           (places.size() == 1 ? " frame has" : " frames have") +
+                           " the image of an earlier frame and " + fault + ": " + listed(places, 3));
+    };
+    warn(repeated, "its camera; left out");
+    warn(shared, "another camera; correct one of them");
 }
 
 bool is_posed(const Rig& rig) {

@@ -1,6 +1,6 @@
 #pragma once
-// Checks of capture sets that other tools wrote, before their images are read: lens models, camera axes, alpha and
-// repeated frames.
+// Checks of capture sets that other tools wrote, before their images are read: lens models, alpha and repeated
+// frames. Frames of reference: rayspace/geometry/rig_conventions.hpp.
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/rig.hpp"
@@ -14,16 +14,9 @@ namespace rs::encode {
 /// Steepest camera that can be made upright.
 inline constexpr double kSteepestPitch_deg = 60;
 
-/// Converts cameras with OpenCV's axes (Y down, Z forward; COLMAP) to OpenGL's, which transforms.json has: if all of
-/// them look away from the Y axis and the converted ones towards it.
-/// \return true if the cameras were converted
-bool convert_opencv_axes(Rig& rig);
-
-/// Removes frames with the image and the camera of an earlier frame, and reports images that several frames share.
+/// Removes frames with the image and the camera of an earlier frame, and reports images that several frames share, in
+/// one warning each.
 void remove_repeated_frames(Rig& rig, const std::filesystem::path& file, std::vector<std::string>& warnings);
-
-/// Top-level key of a rig: true if its cameras are not turntable rings.
-inline constexpr const char* kPosedKey = "posed";
 
 /// Widest range of elevations within a ring of find_rings(), which continues while gaps are small.
 inline constexpr double kRingSpread_deg = 15;

@@ -268,7 +268,8 @@ Status run_build(const BuildArguments& arguments) {
         report.facts = facts_of(arguments, options, set, built.object, summary);
         report.stages = progress.stages();
         report.chunks = summarise_chunks(container);
-        report.warnings = built.warnings;
+        report.warnings = set.warnings;
+        report.warnings.insert(report.warnings.end(), built.warnings.begin(), built.warnings.end());
         report.rig = set.upright;
         built.object.images.clear();  // frees memory for the objects to be scored
         RS_TRY(add_captured_images(set, report));

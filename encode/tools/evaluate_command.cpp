@@ -141,6 +141,7 @@ Status run_evaluate(const EvaluateArguments& arguments) {
 
     ProgressBar progress(arguments.quiet);
     RS_ASSIGN_OR_RETURN(const CaptureSet set, open_capture_set(arguments.set, &progress));
+    for (const std::string& warning : set.warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
     RS_ASSIGN_OR_RETURN(const HoldOut hold_out, choose_hold_out(set.upright, every, arguments.set));
     std::vector<std::filesystem::path> inputs{arguments.set, arguments.report};
     for (const RigView& view : set.captured.views) inputs.push_back(image_path(set.folder, view));

@@ -2,7 +2,7 @@
 
 #include "engine/core/views/orbit.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/geometry/rig.hpp"
+#include "rayspace/geometry/rig_conventions.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 namespace rs::engine {
@@ -20,7 +20,8 @@ Result<ViewShape> view_shape(const RequestedViews& views) {
 }
 
 Result<std::vector<Camera>> cameras_of_rig(const std::string& path, const ViewShape& shape) {
-    RS_ASSIGN_OR_RETURN(const Rig rig, read_rig(path));
+    RS_ASSIGN_OR_RETURN(Rig rig, read_rig(path));
+    apply_rig_conventions(rig);
     if (rig.views.empty()) return Error{path + ": has no frames to render"};
     std::vector<Camera> cameras;
     for (const RigView& view : rig.views) {

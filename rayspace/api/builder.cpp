@@ -62,7 +62,9 @@ Result<BuiltObject> build_object(const std::filesystem::path& set, const BuildOp
         built.object.coded = std::make_shared<codec::CodedImages>(std::move(encoded.coded));
     }
     RS_ASSIGN_OR_RETURN(Object object, Object::create(std::move(built.object)));
-    return BuiltObject{std::move(object), std::move(built.warnings), psnr_db};
+    std::vector<std::string> warnings = std::move(opened.warnings);
+    warnings.insert(warnings.end(), built.warnings.begin(), built.warnings.end());
+    return BuiltObject{std::move(object), std::move(warnings), psnr_db};
 }
 
 }  // namespace rs::api

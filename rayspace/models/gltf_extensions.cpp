@@ -47,13 +47,38 @@ bool is_whole_glb(std::span<const std::byte> bytes) {
     return true;
 }
 
+const json& array_of(const json& parent, std::string_view key) {
+    static const json kNone = json::array();
+    const auto found = parent.is_object() ? parent.find(key) : parent.end();
+    return found != parent.end() && found->is_array() ? *found : kNone;
+}
+
 std::vector<std::string> names(const json& top, const char* key) {
     std::vector<std::string> result;
-    if (!top.is_object() || !top.contains(key) || !top[key].is_array()) return result;
-    for (const json& name : top[key]) {
+    for (const json& name : array_of(top, key)) {
         if (name.is_string()) result.push_back(name.get<std::string>());
     }
     return result;
+}
+
+struct IgnoredContent {
+    std::string_view key;  // of an array, at the top or in primitives
+    std::string_view warning;
+};
+constexpr std::array<IgnoredContent, 3> kIgnoredContents = {
+    {{"animations", "animations are not played"},
+     {"skins", "skins are ignored; meshes are shown as modeled, without their skeletons"},
+     {"targets", "morph targets are ignored"}}};
+
+bool mentions(std::string_view text, std::string_view key) {
+    return text.find("\"" + std::string(key) + "\"") != std::string_view::npos;
+}
+
+bool has_content(const json& top, std::string_view key) {
+    const auto has_own = [&](const json& parent) { return !array_of(parent, key).empty(); };
+    return has_own(top) || std::ranges::any_of(array_of(top, "meshes"), [&](const json& mesh) {
+               return std::ranges::any_of(array_of(mesh, "primitives"), has_own);
+           });
 }
 
 bool is_supported(const std::string& extension) {
@@ -99,6 +124,16 @@ std::vector<std::byte> glb_with_json(const std::vector<std::byte>& glb, std::siz
 
 }  // namespace
 
+std::span<const std::string_view> supported_gltf_extensions() {
+    return kSupported;
+}
+
+std::vector<std::string> ignored_gltf_contents() {
+    std::vector<std::string> keys;
+    for (const IgnoredContent& content : kIgnoredContents) keys.emplace_back(content.key);
+    return keys;
+}
+
 Result<std::string> gltf_json(std::string_view bytes, const std::string& file) {
     bytes = without_byte_order_mark(bytes);
     if (!is_glb(bytes)) return std::string(bytes);
@@ -117,9 +152,13 @@ Result<GltfFile> prepare_gltf(std::vector<std::byte> bytes, const std::string& f
     GltfFile result;
     const bool glb = is_glb(view);
     if (glb && !is_whole_glb(bytes)) return Error{file + ": is a damaged .glb file; export it again"};
-    if (text.find("\"extensionsUsed\"") != std::string::npos ||
-        text.find("\"extensionsRequired\"") != std::string::npos) {
+    const bool has_ignored = std::ranges::any_of(
+        kIgnoredContents, [&](const IgnoredContent& content) { return mentions(text, content.key); });
+    if (has_ignored || mentions(text, "extensionsUsed") || mentions(text, "extensionsRequired")) {
         RS_ASSIGN_OR_RETURN(json top, parse_json(text, file));
+        for (const IgnoredContent& content : kIgnoredContents) {
+            if (has_content(top, content.key)) result.warnings.push_back(file + ": " + std::string(content.warning));
+        }
         for (const std::string& name : names(top, "extensionsRequired")) {
             if (is_supported(name)) continue;
             return Error{file + ": requires the glTF extension " + name.substr(0, 80) +

@@ -1,10 +1,11 @@
 #pragma once
-// Extensions of glTF 2.0 files: refuses required ones that are not supported, reports optional ones that are ignored,
-// and rewrites those that Assimp does not know. Thread-safe.
+// Extensions of glTF 2.0 files: refuses required ones that are not supported, reports optional ones and animations,
+// skins and morph targets, which are ignored, and rewrites those that Assimp does not know. Thread-safe.
 
 #include "rayspace/base/result.hpp"
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,11 @@ namespace rs {
 /// JSON text of a .gltf, or of a .glb's JSON chunk (glTF 2.0, 4.4), without a byte order mark.
 /// \return an error if the .glb is damaged
 Result<std::string> gltf_json(std::string_view bytes, const std::string& file);
+
+/// Names of the extensions that prepare_gltf() accepts without a warning.
+std::span<const std::string_view> supported_gltf_extensions();
+/// Keys of glTF 2.0 for which prepare_gltf() warns.
+std::vector<std::string> ignored_gltf_contents();
 
 struct GltfFile {
     std::vector<std::byte> bytes;

@@ -168,6 +168,10 @@ private:
 
 }  // namespace
 
+std::span<const std::string_view> mtl_keywords() {
+    return kKeywords;
+}
+
 MtlText rewrite_mtl(std::string_view text) {
     MtlText result;
     MaterialBlock block;

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,9 @@ struct MtlText {
     std::string text;
     std::map<std::string, TexturePlacement> placements;  // by material, where not the identity
 };
+
+/// Keywords of MTL that are read.
+std::span<const std::string_view> mtl_keywords();
 
 /// Statements before the first newmtl are removed, since they crash Assimp, and leading spaces, which hide statements
 /// from it. Keywords get their usual letter case ("MAP_KD"), options behind a file name move in front of it, "-s" and

@@ -14,8 +14,11 @@ int fuzz_container(const std::uint8_t* data, std::size_t size);
 /// checksums.
 int fuzz_object(const std::uint8_t* data, std::size_t size);
 
-/// Reads a transforms.json.
+/// Reads a transforms.json, and converts its frame and axes.
 int fuzz_rig(const std::uint8_t* data, std::size_t size);
+
+/// Finds rows in the names of photos, one name a line.
+int fuzz_photo_rows(const std::uint8_t* data, std::size_t size);
 
 /// Reads a Middlebury *_par.txt.
 int fuzz_middlebury(const std::uint8_t* data, std::size_t size);

@@ -71,6 +71,9 @@ TEST(FuzzReplay, Object) {
 TEST(FuzzReplay, Rig) {
     replay("rig", fuzz::fuzz_rig);
 }
+TEST(FuzzReplay, PhotoRows) {
+    replay("photo_rows", fuzz::fuzz_photo_rows);
+}
 TEST(FuzzReplay, Middlebury) {
     replay("middlebury", fuzz::fuzz_middlebury);
 }

@@ -1,6 +1,8 @@
 #include "capture/posed/cameras/camera_file.hpp"
-#include "rayspace/geometry/rig.hpp"
+#include "rayspace/geometry/rig_conventions.hpp"
 #include "tests/fuzz/entries.hpp"
+
+#include <cmath>
 
 namespace rs::fuzz {
 
@@ -26,6 +28,14 @@ int fuzz_rig(const std::uint8_t* data, std::size_t size) {
         RS_CHECK(a.camera.world_from_camera == b.camera.world_from_camera);
         const auto lens = capture::lens_distortion_of(rig->extras, a.extras, "input");
         RS_CHECK(lens.ok() || lens.error().message.find('\n') == std::string::npos);
+    }
+    Rig converted = *rig;
+    apply_rig_conventions(converted);
+    for (const RigView& view : converted.views) {
+        constexpr double kMaxRotationError = 5e-3;  // files may have 1e-3
+        RS_CHECK(rotation_error(view.camera) < kMaxRotationError);
+        const glm::dvec3 centre = view.camera.centre();
+        RS_CHECK(std::isfinite(centre.x) && std::isfinite(centre.y) && std::isfinite(centre.z));
     }
     return 0;
 }

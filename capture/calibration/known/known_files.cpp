@@ -6,6 +6,7 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/geometry/rig.hpp"
+#include "rayspace/geometry/rig_lens.hpp"
 
 #include <algorithm>
 #include <array>
@@ -133,6 +134,11 @@ Status set_lens(KnownInputs& known, const MiddleburyView& first, const std::stri
 
 // Distortion coefficients as NeRF tools write them beside the intrinsics.
 Result<glm::dvec2> distortion_of(const nlohmann::json& extras, const std::string& where) {
+    if (const StatedLens lens = stated_lens(extras, nlohmann::json::object()); lens.kind != LensKind::kPinhole) {
+        const std::string posed = lens.kind == LensKind::kFisheye ? "give --posed, or " : "";
+        return Error{where + ": " + lens.stated + " is not a pinhole with k1 and k2; " + posed +
+                     "undistort the images"};
+    }
     const auto coefficient = [&](const char* key) -> Result<double> {
         if (!extras.contains(key)) return 0.0;
         if (!extras[key].is_number()) return Error{where + ": " + key + " must be a number"};
@@ -145,7 +151,7 @@ Result<glm::dvec2> distortion_of(const nlohmann::json& extras, const std::string
                          " is not supported, only k1 and k2; calibrate with those alone or undistort the images"};
         }
     }
-    RS_ASSIGN_OR_RETURN(const double k1, coefficient("k1"));
+    RS_ASSIGN_OR_RETURN(const double k1, coefficient(extras.contains("k1") ? "k1" : "k"));
     RS_ASSIGN_OR_RETURN(const double k2, coefficient("k2"));
     return glm::dvec2(k1, k2);
 }

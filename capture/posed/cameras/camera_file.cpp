@@ -6,6 +6,7 @@
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/geometry/rig.hpp"
+#include "rayspace/geometry/rig_lens.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,42 +21,15 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 9> kPinholeNames = {
-    "PINHOLE", "SIMPLE_PINHOLE", "OPENCV", "SIMPLE_RADIAL", "RADIAL", "FULL_OPENCV", "perspective", "PERSPECTIVE", ""};
-constexpr std::array<std::string_view, 5> kFisheyeNames = {"OPENCV_FISHEYE", "SIMPLE_RADIAL_FISHEYE", "RADIAL_FISHEYE",
-                                                           "FISHEYE", "fisheye"};
-constexpr std::array kPanoramaFlags = {"latlong", "equirectangular", "is_equirectangular"};
 // In the order of LensDistortion::coefficients.
 constexpr std::array kRadialTangentialKeys = {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"};
 constexpr std::array kFisheyeKeys = {"k1", "k2", "k3", "k4"};
 
-// The value of a key in the frame, else in the file; null if there is none.
-json stated(const json& file, const json& frame, const char* key) {
-    if (frame.contains(key)) return frame[key];
-    return file.contains(key) ? file[key] : json();
-}
-
-bool is_true(const json& value) {
-    return (value.is_boolean() && value.get<bool>()) || (value.is_number() && value.get<double>() != 0);
-}
-
 Result<double> coefficient_of(const json& file, const json& frame, const char* key, const std::string& place) {
-    const json value = stated(file, frame, key);
+    const json value = stated_key(file, frame, key);
     if (value.is_null()) return 0.0;
     if (!value.is_number()) return Error{place + ": " + key + " must be a number"};
     return value.get<double>();
-}
-
-std::string model_name(const json& file, const json& frame) {
-    for (const char* const key : {"camera_model", "camera_type"}) {
-        const json value = stated(file, frame, key);
-        if (value.is_string()) return value.get<std::string>();
-    }
-    return {};
-}
-
-bool is_one_of(std::string_view name, std::span<const std::string_view> names) {
-    return std::ranges::find(names, name) != names.end();
 }
 
 // Keeps the first of frames that repeat each other.
@@ -83,7 +57,7 @@ Status add_transforms(const fs::path& path, PosedModel& model, std::map<std::str
         const std::string place = where + ": frame " + std::to_string(i);
         PosedCamera camera{view.file_path, {}, view.camera, {}};
         std::ranges::replace(camera.photo, '\\', '/');
-        if (const json mask = stated({}, view.extras, "mask_path"); mask.is_string()) camera.mask_path = mask;
+        if (const json mask = stated_key({}, view.extras, "mask_path"); mask.is_string()) camera.mask_path = mask;
         RS_ASSIGN_OR_RETURN(camera.distortion, lens_distortion_of(rig.extras, view.extras, place));
         RS_TRY(check_lens(camera, place));
         RS_TRY(add_camera(model, index_of, std::move(camera), place));
@@ -138,24 +112,12 @@ Result<PosedModel> read_camera_folder(const fs::path& folder) {
 }  // namespace
 
 Result<LensDistortion> lens_distortion_of(const json& file, const json& frame, const std::string& place) {
-    constexpr const char* kRemedy = " is not supported; undistort the photos to pinhole cameras first";
-    for (const json* const keys : {&frame, &file}) {
-        if (!keys->is_object()) continue;
-        for (const auto& [key, value] : keys->items()) {
-            if (key.starts_with("ftheta_"))
-                return Error{place + ": an f-theta lens (" + printable(key) + ")" + kRemedy};
-        }
+    const StatedLens stated = stated_lens(file, frame);
+    if (stated.kind == LensKind::kOther) {
+        return Error{place + ": " + stated.stated + " is not supported; undistort the photos to pinhole cameras first"};
     }
-    for (const char* const flag : kPanoramaFlags) {
-        if (is_true(stated(file, frame, flag))) return Error{place + ": a panoramic camera (" + flag + ")" + kRemedy};
-    }
-    const std::string name = model_name(file, frame);
     LensDistortion lens;
-    if (is_true(stated(file, frame, "is_fisheye")) || is_one_of(name, kFisheyeNames)) {
-        lens.model = LensDistortion::Model::kFisheye;
-    } else if (!is_one_of(name, kPinholeNames)) {
-        return Error{place + ": camera model " + printable(name.substr(0, 40)) + kRemedy};
-    }
+    if (stated.kind == LensKind::kFisheye) lens.model = LensDistortion::Model::kFisheye;
     const bool is_fisheye = lens.model == LensDistortion::Model::kFisheye;
     const std::size_t count = is_fisheye ? kFisheyeKeys.size() : kRadialTangentialKeys.size();
     for (std::size_t i = 0; i < count; ++i) {

@@ -261,6 +261,18 @@ std::string digits(double value) {
 
 }  // namespace
 
+std::vector<std::string> colmap_camera_models() {
+    std::vector<std::string> names;
+    for (const ColmapLens& lens : kColmapLenses) names.emplace_back(lens.name);
+    return names;
+}
+
+std::vector<std::string> refused_colmap_camera_models() {
+    std::vector<std::string> names;
+    for (const auto& [id, name] : kRefusedLenses) names.push_back(name);
+    return names;
+}
+
 std::optional<fs::path> find_colmap_model(const fs::path& path) {
     std::error_code ignored;
     if (!fs::is_directory(path, ignored)) {
@@ -274,7 +286,9 @@ std::optional<fs::path> find_colmap_model(const fs::path& path) {
     return std::nullopt;
 }
 
-Result<PosedModel> read_colmap_model(const fs::path& folder) {
+namespace {
+
+Result<PosedModel> read_model_files(const fs::path& folder) {
     if (is_model_file(folder / "cameras.bin") && is_model_file(folder / "images.bin")) {
         RS_ASSIGN_OR_RETURN(const auto cameras, read_file(folder / "cameras.bin", kMaxModelFile_bytes));
         RS_ASSIGN_OR_RETURN(const auto images, read_file(folder / "images.bin", kMaxModelFile_bytes));
@@ -286,6 +300,18 @@ Result<PosedModel> read_colmap_model(const fs::path& folder) {
         return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     };
     return colmap_model_from_text(text(cameras), text(images), folder.string());
+}
+
+}  // namespace
+
+Result<PosedModel> read_colmap_model(const fs::path& folder) {
+    RS_ASSIGN_OR_RETURN(PosedModel model, read_model_files(folder));
+    const fs::path next = folder.parent_path() / "1";
+    if (folder.filename() == "0" && has_model(next)) {
+        model.notes.push_back(folder.string() + " is read, of several models that could not be joined; give " +
+                              next.string() + " for the next one");
+    }
+    return model;
 }
 
 Result<PosedModel> colmap_model_from_text(std::string_view cameras, std::string_view images,

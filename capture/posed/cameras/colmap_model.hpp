@@ -14,8 +14,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rs::capture {
+
+/// Names of the camera models that are read, and of those that are known but refused.
+std::vector<std::string> colmap_camera_models();
+std::vector<std::string> refused_colmap_camera_models();
 
 /// Folder of the COLMAP model at `path`: the folder itself, its sparse/0, sparse or 0, or the folder of one of its
 /// files. Nullopt if there is none.

@@ -43,6 +43,7 @@ struct PosedModel {
     std::vector<PosedCamera> cameras;
     /// Camera axes may be OpenCV's instead of OpenGL's: the file's format does not define them.
     bool has_uncertain_axes = false;
+    std::vector<std::string> notes = {};  ///< one line each
 };
 
 /// Checks size, focal lengths, principal point and coefficients of a lens from a file: sides of 1 .. kMaxPhotoSide_px,

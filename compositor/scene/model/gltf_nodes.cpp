@@ -173,7 +173,12 @@ private:
         const json& index = node["camera"];
         if (!index.is_number_unsigned() || index.get<std::size_t>() >= cameras.size()) return;
         const json& camera = cameras[index.get<std::size_t>()];
-        if (!camera.is_object() || !camera.contains("perspective")) return;
+        if (!camera.is_object() || !camera.contains("perspective")) {
+            scene_.warnings.push_back(printable(path_.string() + ": camera " +
+                                                std::to_string(index.get<std::size_t>()) +
+                                                " is not a perspective one; left out"));
+            return;
+        }
         const json& perspective = camera["perspective"];
         Viewpoint viewpoint;
         if (camera.contains("name") && camera["name"].is_string()) viewpoint.description = camera["name"];

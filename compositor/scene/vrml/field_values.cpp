@@ -9,20 +9,6 @@ constexpr long kMaxSide = 8192;  // image side, px
 constexpr long kMaxPixels = 1L << 24;
 constexpr std::size_t kMaxString_bytes = 1 << 16;
 
-int numbers_in(FieldType type) {
-    switch (type) {
-        case FieldType::kVec2f:
-            return 2;
-        case FieldType::kVec3f:
-        case FieldType::kColor:
-            return 3;
-        case FieldType::kRotation:
-            return 4;
-        default:
-            return 1;
-    }
-}
-
 class ValueReader {
 public:
     ValueReader(Lexer& lexer, const FieldSpec& spec, const std::string& field)

@@ -74,7 +74,7 @@ private:
         if (++state.height > kMaxHeight) throw LimitExceeded{};
         const std::string& type = node.type;
         if (type == "Shape") return add_shape(node, state);
-        if (type == "Transform") {
+        if (type == "Transform" || type == "CADPart") {
             if (descend(node, state)) walk_children(node.field("children").nodes, state);
         } else if (type == "Switch") {
             const std::vector<NodePointer>& choice = node.field("choice").nodes;
@@ -93,6 +93,8 @@ private:
             walk_room(node, state);
         } else if (is_light(node)) {
             if (node.flag("on") && node.flag("global")) scene_.lights.push_back(light_of(node, state));
+        } else if (type == "CADFace") {
+            walk_children(node.field("shape").nodes, state);
         } else if (node.has("children")) {
             walk_children(node.field("children").nodes, state);
         } else {

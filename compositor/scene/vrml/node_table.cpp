@@ -81,6 +81,12 @@ constexpr const char* kNodes[] = {
     "backUrl MFString [ ] bottomUrl MFString [ ] frontUrl MFString [ ] leftUrl MFString [ ] rightUrl MFString [ ] "
     "topUrl MFString [ ]",
     "StaticGroup child children MFNode child bboxCenter SFVec3f 0 0 0 bboxSize SFVec3f -1 -1 -1",
+    "CADLayer child children MFNode child bboxCenter SFVec3f 0 0 0 bboxSize SFVec3f -1 -1 -1",
+    "CADAssembly child children MFNode child bboxCenter SFVec3f 0 0 0 bboxSize SFVec3f -1 -1 -1",
+    "CADPart child children MFNode child center SFVec3f 0 0 0 rotation SFRotation 0 0 1 0 scale SFVec3f 1 1 1 "
+    "scaleOrientation SFRotation 0 0 1 0 translation SFVec3f 0 0 0 bboxCenter SFVec3f 0 0 0 "
+    "bboxSize SFVec3f -1 -1 -1",
+    "CADFace child shape SFNode child bboxCenter SFVec3f 0 0 0 bboxSize SFVec3f -1 -1 -1",
     "LineSet geometry color SFNode color coord SFNode coord vertexCount MFInt32 [ ]",
     "Rectangle2D geometry size SFVec2f 2 2 solid SFBool FALSE",
     "WorldInfo child info MFString [ ] title SFString \"\"",
@@ -145,13 +151,17 @@ std::map<std::string, NodeSpec, std::less<>> parse_table() {
 
 }  // namespace
 
-const NodeSpec* find_node(std::string_view type) {
+const std::map<std::string, NodeSpec, std::less<>>& node_table() {
     static const std::map<std::string, NodeSpec, std::less<>> kTable = parse_table();
-    const auto found = kTable.find(type);
-    return found == kTable.end() ? nullptr : &found->second;
+    return kTable;
 }
 
-bool is_behaviour(std::string_view type) {
+const NodeSpec* find_node(std::string_view type) {
+    const auto found = node_table().find(type);
+    return found == node_table().end() ? nullptr : &found->second;
+}
+
+const std::set<std::string, std::less<>>& behaviours() {
     static const std::set<std::string, std::less<>> kTypesOfTime = {
         "AudioClip",
         "BooleanFilter",
@@ -189,7 +199,11 @@ bool is_behaviour(std::string_view type) {
         "TouchSensor",
         "VisibilitySensor",
     };
-    return kTypesOfTime.contains(type);
+    return kTypesOfTime;
+}
+
+bool is_behaviour(std::string_view type) {
+    return behaviours().contains(type);
 }
 
 bool parse_field_type(std::string_view name, FieldSpec& spec) {
@@ -207,6 +221,20 @@ std::string field_type_name(const FieldSpec& spec) {
     const auto found =
         std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& type) { return type.second == spec.type; });
     return std::string(spec.many ? "MF" : "SF") + found->first;
+}
+
+int numbers_in(FieldType type) {
+    switch (type) {
+        case FieldType::kVec2f:
+            return 2;
+        case FieldType::kVec3f:
+        case FieldType::kColor:
+            return 3;
+        case FieldType::kRotation:
+            return 4;
+        default:
+            return 1;
+    }
 }
 
 }  // namespace rs::compositor::vrml

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,9 @@ enum class FieldType {
     kNode,
 };
 
+/// Numbers of one value; 1 for values that are no numbers.
+int numbers_in(FieldType type);
+
 struct FieldSpec {
     FieldType type = FieldType::kFloat;
     bool many = false;  // MF...
@@ -48,6 +52,11 @@ struct NodeSpec {
     std::string slot;  // group of this node
     FieldSpecs fields;
 };
+
+/// All nodes by type.
+const std::map<std::string, NodeSpec, std::less<>>& node_table();
+/// Types of the nodes that have no effect in static scenes.
+const std::set<std::string, std::less<>>& behaviours();
 
 /// Null for unknown nodes. Nodes without effect in static scenes (sensors, interpolators, scripts, sound) are only in
 /// is_behaviour().

@@ -8,6 +8,7 @@
 #include <Inventor/SoDB.h>
 #include <Inventor/SoPrimitiveVertex.h>
 #include <Inventor/actions/SoCallbackAction.h>
+#include <Inventor/elements/SoLazyElement.h>
 #include <Inventor/errors/SoDebugError.h>
 #include <Inventor/fields/SoFields.h>
 #include <Inventor/nodes/SoComplexity.h>
@@ -20,6 +21,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <mutex>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -101,7 +103,10 @@ private:
         SbColor emissive;
         float shininess = 0;
         float transparency = 0;
-        action.getMaterial(ambient, diffuse, specular, emissive, shininess, transparency, corner.getMaterialIndex());
+        // Coin does not check the index.
+        const int last = SoLazyElement::getInstance(action.getState())->getNumDiffuse() - 1;
+        action.getMaterial(ambient, diffuse, specular, emissive, shininess, transparency,
+                           std::clamp(corner.getMaterialIndex(), 0, std::max(last, 0)));
         MeshVertex vertex;
         vertex.position = {p[0], p[1], p[2]};
         vertex.normal = {n[0], n[1], n[2]};
@@ -232,6 +237,42 @@ void map_by_box(Mesh& mesh) {
     }
 }
 
+glm::vec4 listed_colour(const std::vector<double>& codes, std::size_t i) {
+    const auto linear = [&](std::size_t channel) {
+        return linear_from_srgb(std::clamp(static_cast<float>(codes[3 * i + channel]), 0.0F, 1.0F));
+    };
+    return {linear(0), linear(1), linear(2), 1};
+}
+
+// Coin ignores the colours of elevation grids.
+void colour_grid(Mesh& mesh, const Node& grid) {
+    const std::vector<double>& codes = grid.node("color")->field("color").numbers;
+    const double columns = grid.number("xDimension");
+    const glm::dvec2 spacing(grid.number("xSpacing"), grid.number("zSpacing"));
+    const auto place_of = [&](const MeshVertex& vertex) {
+        return glm::round(glm::dvec2(vertex.position.x, vertex.position.z) / spacing);
+    };
+    if (grid.flag("colorPerVertex")) {
+        for (MeshVertex& vertex : mesh.vertices) {
+            const glm::dvec2 place = place_of(vertex);
+            vertex.colour = listed_colour(codes, static_cast<std::size_t>(place.y * columns + place.x));
+        }
+        return;
+    }
+    std::vector<MeshVertex> vertices;  // quads of different colours share no corners
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::span<std::uint32_t, 3> corners(mesh.indices.data() + i, 3);
+        glm::dvec2 quad = place_of(mesh.vertices[corners[0]]);
+        for (const std::uint32_t corner : corners) quad = glm::min(quad, place_of(mesh.vertices[corner]));
+        for (std::uint32_t& corner : corners) {
+            vertices.push_back(mesh.vertices[corner]);
+            vertices.back().colour = listed_colour(codes, static_cast<std::size_t>(quad.y * (columns - 1) + quad.x));
+            corner = static_cast<std::uint32_t>(vertices.size() - 1);
+        }
+    }
+    mesh.vertices = std::move(vertices);
+}
+
 // Coin draws only the first point of coloured sets.
 std::shared_ptr<const Mesh> point_set(const Node& geometry, bool has_colours) {
     const std::vector<double>& points = geometry.node("coord")->field("point").numbers;
@@ -242,13 +283,7 @@ std::shared_ptr<const Mesh> point_set(const Node& geometry, bool has_colours) {
     for (std::size_t i = 0; i + 3 <= points.size(); i += 3) {
         MeshVertex vertex;
         vertex.position = glm::dvec3(points[i], points[i + 1], points[i + 2]);
-        if (has_colours) {
-            const double* const c = geometry.node("color")->field("color").numbers.data() + i;
-            const auto linear = [](double code) {
-                return linear_from_srgb(std::clamp(static_cast<float>(code), 0.0F, 1.0F));
-            };
-            vertex.colour = {linear(c[0]), linear(c[1]), linear(c[2]), 1};
-        }
+        if (has_colours) vertex.colour = listed_colour(geometry.node("color")->field("color").numbers, i / 3);
         mesh->indices.push_back(static_cast<std::uint32_t>(mesh->vertices.size()));
         mesh->vertices.push_back(vertex);
     }
@@ -279,6 +314,7 @@ std::shared_ptr<const Mesh> triangulate(const Node& geometry, const ShapeCheck& 
     auto mesh = std::make_shared<Mesh>(collector.take());
     if (mesh->indices.empty()) return nullptr;
     if (geometry.type == "IndexedFaceSet" && check.lists.texture.empty()) map_by_box(*mesh);
+    if (geometry.type == "ElevationGrid" && has_colours) colour_grid(*mesh, geometry);
     mesh->has_colours = has_colours;
     mesh->two_sided = mesh->topology != Topology::kTriangles || !is_solid(geometry);
     return mesh;

@@ -98,10 +98,14 @@ std::map<std::string, NodeKind, std::less<>> parse_kinds() {
 
 }  // namespace
 
-const NodeKind* find_kind(std::string_view type) {
+const std::map<std::string, NodeKind, std::less<>>& node_kinds() {
     static const std::map<std::string, NodeKind, std::less<>> kTable = parse_kinds();
-    const auto found = kTable.find(type);
-    return found == kTable.end() ? nullptr : &found->second;
+    return kTable;
+}
+
+const NodeKind* find_kind(std::string_view type) {
+    const auto found = node_kinds().find(type);
+    return found == node_kinds().end() ? nullptr : &found->second;
 }
 
 }  // namespace rs::compositor::vrml1

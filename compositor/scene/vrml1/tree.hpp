@@ -61,6 +61,8 @@ struct Tree {
     [[nodiscard]] bool has_part(std::string_view key, std::string_view word) const;
 };
 
+/// All kinds of nodes by type.
+const std::map<std::string, NodeKind, std::less<>>& node_kinds();
 /// Null for unknown nodes.
 const NodeKind* find_kind(std::string_view type);
 

@@ -87,12 +87,23 @@ bool is_ignored_attribute(std::string_view name) {
     return kNames.contains(name) || name.find(':') != std::string_view::npos;
 }
 
-// Field of a node that takes nodes of this group.
-std::string_view field_for(const NodeSpec& parent, std::string_view slot) {
+// Field of a node that takes nodes of this group. Nodes that it does not take are named by their type, for the
+// reader's warning.
+std::string_view field_for(const NodeSpec& parent, std::string_view slot, std::string_view type) {
+    bool has_children = false;
     for (const auto& [name, field] : parent.fields) {
-        if (field.type == FieldType::kNode && field.slot == slot && name != "proxy") return name;
+        if (field.type != FieldType::kNode) continue;
+        if (field.slot == slot && name != "proxy") return name;
+        has_children = has_children || name == "children" || name == "level" || name == "choice";
     }
-    return "children";
+    return has_children ? "children" : type;
+}
+
+std::ptrdiff_t number_count(std::string_view text) {
+    std::ptrdiff_t count = 0;
+    for (std::size_t i = 0; i < text.size(); ++i)
+        count += !is_space(text[i]) && (i == 0 || is_space(text[i - 1])) ? 1 : 0;
+    return count;
 }
 
 }  // namespace
@@ -113,7 +124,10 @@ void ClassicWriter::write_value(const FieldSpec& spec, std::string_view value) {
         if (value == "true" || value == "TRUE") return write("TRUE");
         if (value == "false" || value == "FALSE") return write("FALSE");
     }
-    if (!is_numeric(value)) return write(in_quotes(value));  // the reader reports the error
+    // The reader reports the error with the whole value.
+    const std::ptrdiff_t each = vrml::numbers_in(spec.type), count = number_count(value);
+    const bool has_right_count = spec.type == FieldType::kImage || (spec.many ? count % each == 0 : count == each);
+    if (!is_numeric(value) || !has_right_count) return write(in_quotes(value));
     write(spec.many ? "[ " + std::string(value) + " ]" : std::string(value));
 }
 
@@ -140,9 +154,9 @@ void ClassicWriter::begin_child(std::string_view type, const Attributes& attribu
     const auto named = around.spec->fields.find(requested);
     if (named != around.spec->fields.end() && named->second.type == FieldType::kNode) return write(requested);
     if (own != nullptr || requested.empty())
-        return write(field_for(*around.spec, own != nullptr ? own->slot : "child"));
+        return write(field_for(*around.spec, own != nullptr ? own->slot : "child", type));
     const std::string field = word_of(requested);
-    write(field.empty() || field == "children" ? field_for(*around.spec, "child") : std::string_view(field));
+    write(field.empty() || field == "children" ? field_for(*around.spec, "child", type) : std::string_view(field));
 }
 
 ClassicWriter::Frame ClassicWriter::open_node(std::string_view name, const Attributes& attributes) {

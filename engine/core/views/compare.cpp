@@ -1,7 +1,7 @@
 #include "engine/core/views/compare.hpp"
 
 #include "rayspace/base/parallel.hpp"
-#include "rayspace/geometry/rig.hpp"
+#include "rayspace/geometry/rig_conventions.hpp"
 #include "rayspace/image/image_metrics.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
@@ -38,7 +38,8 @@ Result<Comparison> compare_with_set(const Renderer& renderer, const std::filesys
 }
 
 Result<Comparison> compare_with_set(const RenderView& render, const std::filesystem::path& set, Progress* progress) {
-    RS_ASSIGN_OR_RETURN(const Rig rig, read_rig(set));
+    RS_ASSIGN_OR_RETURN(Rig rig, read_rig(set));
+    apply_rig_conventions(rig);  // as for the object, if it was made from this set
     if (rig.views.empty()) return Error{set.string() + ": has no frames to compare with"};
     const std::filesystem::path folder = std::filesystem::is_directory(set) ? set : set.parent_path();
 

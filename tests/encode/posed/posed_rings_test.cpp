@@ -7,6 +7,7 @@
 #include "engine/core/definition/view_registers.hpp"
 #include "engine/core/fast/renderer.hpp"
 #include "rayspace/format/object_file.hpp"
+#include "rayspace/geometry/rig_conventions.hpp"
 #include "rayspace/geometry/ring_axes.hpp"
 #include "rayspace/image/image_metrics.hpp"
 #include "rayspace/image_io/image_io.hpp"

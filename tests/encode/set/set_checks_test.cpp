@@ -98,19 +98,6 @@ TEST(SetChecks, LensesThatAreNotPinholesAreRefusedByName) {
     EXPECT_THAT(fault("camera_model", "OPENCV", false), IsEmpty());
 }
 
-TEST(SetChecks, CamerasWithOpencvAxesAreConverted) {
-    Rig rig = ring();
-    EXPECT_FALSE(convert_opencv_axes(rig));
-    const Rig truth = rig;
-    for (RigView& view : rig.views) {
-        for (const int column : {1, 2}) view.camera.world_from_camera[column] *= -1;
-    }
-    EXPECT_TRUE(convert_opencv_axes(rig));
-    for (std::size_t i = 0; i < rig.views.size(); ++i) {
-        EXPECT_EQ(rig.views[i].camera.world_from_camera, truth.views[i].camera.world_from_camera);
-    }
-}
-
 TEST(SetChecks, RepeatedFramesAreLeftOutAndSharedImagesReported) {
     Rig rig = ring();
     rig.views.push_back(rig.views[1]);
@@ -119,7 +106,36 @@ TEST(SetChecks, RepeatedFramesAreLeftOutAndSharedImagesReported) {
     remove_repeated_frames(rig, "transforms.json", warnings);
     EXPECT_THAT(rig.views, SizeIs(6));
     EXPECT_THAT(warnings,
-                ElementsAre(HasSubstr("frame 4 has the image of an earlier one"), HasSubstr("frame 6 repeats")));
+                ElementsAre("transforms.json: 1 frame has the image of an earlier frame and its camera; left out: "
+                            "frame 6 (images/0001.png)",
+                            "transforms.json: 1 frame has the image of an earlier frame and another camera; correct "
+                            "one of them: frame 4 (images/0000.png)"));
+    for (RigView& view : rig.views) view.file_path = "one.png";
+    warnings.clear();
+    remove_repeated_frames(rig, "transforms.json", warnings);
+    EXPECT_THAT(warnings,
+                ElementsAre("transforms.json: 5 frames have the image of an earlier frame and another camera; "
+                            "correct one of them: frame 1 (one.png), frame 2 (one.png), frame 3 (one.png) "
+                            "and 2 more"));
+}
+
+TEST_F(ForeignSet, ATurnAboutAnotherAxisIsOpenedAsRings) {
+    Rig rig = ring();
+    write(rig, true);
+    const auto upright = open_capture_set(folder_.path());
+    ASSERT_TRUE(upright) << upright.error().message;
+    EXPECT_THAT(upright->warnings, IsEmpty());
+    for (RigView& view : rig.views) {  // Blender's frame, Z up, and the turntable 40 beside the origin
+        glm::dmat4& m = view.camera.world_from_camera;
+        for (int column = 0; column < 4; ++column) m[column] = {m[column].x, -m[column].z, m[column].y, m[column].w};
+        m[3].x += 40;
+    }
+    write(rig, true);
+    const auto set = open_capture_set(folder_.path());
+    ASSERT_TRUE(set) << set.error().message;
+    EXPECT_FALSE(set->posed);
+    EXPECT_THAT(set->warnings, ElementsAre(HasSubstr("one turn about another axis than Y")));
+    EXPECT_NEAR(set->upright.object_radius, upright->upright.object_radius, 1e-6);
 }
 
 }  // namespace

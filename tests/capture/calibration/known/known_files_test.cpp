@@ -230,6 +230,18 @@ TEST(KnownRig, GivesTheTurnOfATransformsJson) {
     ASSERT_FALSE(tangential.ok());
     EXPECT_NE(tangential.error().message.find("p1"), std::string::npos);
     rig.extras.erase("p1");
+    for (const char* const camera_model : {"OPENCV_FISHEYE", "EQUIRECTANGULAR"}) {
+        rig.extras["camera_model"] = camera_model;
+        ASSERT_TRUE(write_rig(path, rig).ok());
+        const auto other_lens = read_known_rig(path);
+        ASSERT_FALSE(other_lens.ok()) << camera_model;
+        EXPECT_NE(other_lens.error().message.find(camera_model), std::string::npos);
+    }
+    rig.extras["camera_model"] = "SIMPLE_RADIAL";
+    rig.extras.erase("k1");
+    rig.extras["k"] = 0.02;
+    ASSERT_TRUE(write_rig(path, rig).ok());
+    EXPECT_EQ(read_known_rig(path)->known.distortion, glm::dvec2(0.02, 0));
     rig.views[7].camera.fl_x *= 1.1;
     rig.views[7].camera.fl_y *= 1.1;
     ASSERT_TRUE(write_rig(path, rig).ok());

@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 json frame(const std::string& name, double x = 0) {
@@ -106,7 +107,10 @@ TEST_F(CameraFile, FindsColmapModelsAndMiddleburyFiles) {
         const auto model = read_camera_file(folder_ / name);
         ASSERT_TRUE(model.ok()) << model.error().message;
         EXPECT_EQ(model->cameras.size(), 4U);
+        EXPECT_TRUE(model->notes.empty());
     }
+    fs::copy(folder_ / "sparse/0", folder_ / "sparse/1");
+    EXPECT_THAT(read_camera_file(folder_.path())->notes, ElementsAre(HasSubstr("sparse/0 is read, of several models")));
     fs::create_directories(folder_ / "temple");
     EXPECT_THAT(error_of("temple"), HasSubstr("has no cameras"));
     ASSERT_TRUE(

@@ -18,6 +18,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
 
 // Positions and texture coordinates of a triangle.
 constexpr float kData[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 1, 1, 0, 0};
@@ -245,6 +246,20 @@ TEST_F(ModelFile, UnsupportedExtensionsAreRefusedIfRequiredAndReportedIfNot) {
                   std::string(kMaterial) + R"(, "extensionsUsed": ["EXT_none"], "extensionsRequired": ["EXT_none"])"));
     ASSERT_FALSE(required);
     EXPECT_THAT(required.error().message, HasSubstr("hall.gltf: requires the glTF extension EXT_none"));
+}
+
+TEST_F(ModelFile, ContentThatIsIgnoredIsReported) {
+    const auto scene = read(gltf(
+        R"({"mesh": 0, "camera": 0})",
+        std::string(kMaterial) +
+            R"(, "cameras": [{"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "zfar": 9, "znear": 1}}],
+                "skins": [{"joints": [0]}])"));
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_THAT(scene->warnings, UnorderedElementsAre(HasSubstr("skins are ignored"),
+                                                      HasSubstr("camera 0 is not a perspective one; left out")));
+    const auto named = read(gltf(R"({"mesh": 0, "name": "animations"})", std::string(kMaterial) + R"(, "skins": [])"));
+    ASSERT_TRUE(named) << named.error().message;
+    EXPECT_THAT(named->warnings, IsEmpty());
 }
 
 TEST_F(ModelFile, TextureTransformsMoveTextureCoordinates) {

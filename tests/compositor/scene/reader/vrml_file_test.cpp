@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <fstream>
 
 namespace rs::compositor {
@@ -235,6 +237,71 @@ TEST(VrmlFile, FacesAreCutAndColoured) {
     for (const MeshVertex& vertex : coloured.vertices) {
         const bool is_lower_right = vertex.position.x == 2 && vertex.position.y == 0;
         EXPECT_EQ(vertex.texture == glm::vec2(0.5F, 0), is_lower_right);
+    }
+}
+
+TEST(VrmlFile, ElevationGridsAreColoured) {
+    const auto grid = [](const std::string& fields) {
+        return scene_of("Shape { geometry ElevationGrid { xDimension 3 zDimension 3 xSpacing 0.5 zSpacing 2 " + fields +
+                        " height [ 0 1 0 0 0 2 0 0 0 ] } }");
+    };
+    const Scene corners =
+        grid("color Color { color [ 0 0 0, 0 0 1, 0 0 0, 0 1 0, 0 0 0, 0 1 1, 1 0 0, 1 0 1, 1 1 0 ] }");
+    ASSERT_EQ(corners.geometry.size(), 1U);
+    ASSERT_TRUE(corners.geometry[0].mesh->has_colours);
+    for (const MeshVertex& vertex : corners.geometry[0].mesh->vertices) {
+        const auto i = static_cast<std::size_t>(std::lround(vertex.position.x / 0.5F + 3 * vertex.position.z / 2));
+        const std::array<glm::vec3, 9> colours = {glm::vec3{0, 0, 0}, {0, 0, 1}, {0, 0, 0}, {0, 1, 0}, {0, 0, 0},
+                                                  {0, 1, 1},          {1, 0, 0}, {1, 0, 1}, {1, 1, 0}};
+        EXPECT_EQ(glm::vec3(vertex.colour), colours.at(i)) << i;
+    }
+    const Scene faces = grid("colorPerVertex FALSE color Color { color [ 0 0 1, 0 1 0, 1 0 0, 1 1 1 ] }");
+    ASSERT_EQ(faces.geometry.size(), 1U);
+    const Mesh& mesh = *faces.geometry[0].mesh;
+    EXPECT_EQ(mesh.indices.size(), 24U);
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        glm::vec3 middle(0);
+        for (std::size_t k = 0; k < 3; ++k) middle += mesh.vertices[mesh.indices[i + k]].position / 3.0F;
+        const std::array<glm::vec3, 4> colours = {glm::vec3{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {1, 1, 1}};
+        const std::size_t quad = (middle.x > 0.5F ? 1U : 0U) + (middle.z > 2 ? 2U : 0U);
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(glm::vec3(mesh.vertices[mesh.indices[i + k]].colour), colours.at(quad));
+        }
+    }
+}
+
+TEST(VrmlFile, NodesOfX3DThatAreNotKnownAreNamed) {
+    const auto scene = scene_from_vrml(
+        "<X3D version='3.3'><Scene>\n<Shape><ArcClose2D/>\n<Appearance><LineProperties DEF='thick'/><Material/>"
+        "</Appearance><Box/></Shape>\n<Wiggle><Shape><Box/></Shape></Wiggle></Scene></X3D>",
+        "world.x3d");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->geometry.size(), 2U);
+    EXPECT_THAT(scene->warnings, ElementsAre(HasSubstr("line 2: Shape has no field 'ArcClose2D'"),
+                                             HasSubstr("line 3: Appearance has no field 'LineProperties'"),
+                                             HasSubstr("line 4: 'Wiggle' is an unknown node")));
+}
+
+TEST(VrmlFile, PartsOfCadModelsAreMoved) {
+    const auto scene = scene_from_vrml(
+        "<X3D version='3.3'><Scene><CADLayer><CADAssembly><CADPart translation='1 2 3'><CADFace><Shape><Box/></Shape>"
+        "</CADFace></CADPart></CADAssembly></CADLayer></Scene></X3D>",
+        "world.x3d");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_THAT(scene->warnings, IsEmpty());
+    ASSERT_EQ(scene->geometry.size(), 1U);
+    EXPECT_EQ(moved(scene->geometry[0], {0, 0, 0}), glm::dvec3(1, 2, 3));
+}
+
+TEST(VrmlFile, AttributesOfX3DWithTooFewNumbersAreNamed) {
+    for (const auto& [attribute, message] :
+         {std::pair("specularColor='0.7'", "line 2: specularColor takes SFColor, not '0.7'"),
+          std::pair("transparency='0.5 1'", "line 2: transparency takes SFFloat, not '0.5 1'")}) {
+        const auto scene = scene_from_vrml("<X3D version='3.3'><Scene>\n<Shape><Appearance><Material " +
+                                               std::string(attribute) + "/></Appearance><Box/></Shape></Scene></X3D>",
+                                           "world.x3d");
+        ASSERT_FALSE(scene) << attribute;
+        EXPECT_THAT(scene.error().message, HasSubstr(message));
     }
 }
 
