@@ -107,7 +107,8 @@ public:
     }
     void drive(Random& random) override {
         valid_ = fifo_.can_pop();
-        write_port(data_, valid_ != 0 ? pack(fifo_.front()) : random_bits(random), fifo_.width_bits());
+        write_port(data_, valid_ != 0 ? pack(fifo_.front(), fifo_.width_bits()) : random_bits(random),
+                   fifo_.width_bits());
         before_ = fifo_.count();
     }
     void sample() override { rtl_popped_ = valid_ != 0 && ready_ != 0; }
@@ -175,8 +176,9 @@ private:
         const Sent sent = sent_.front();
         sent_.pop_front();
         if (taken_) taken_(message);
-        if (pack(message) == sent.data) return {};
-        return fifo_.name() + ": the model pushes " + text(pack(message)) + " (" + text(message) + "), the RTL " +
+        const Bits expected = pack(message, fifo_.width_bits());
+        if (expected == sent.data) return {};
+        return fifo_.name() + ": the model pushes " + text(expected) + " (" + text(message) + "), the RTL " +
                text(sent.data) + " in cycle " + std::to_string(sent.cycle);
     }
 
@@ -199,6 +201,8 @@ private:
 template <class Module>
 class Bench {
 public:
+    static constexpr std::int64_t kLongestEpisode = 4000;  // cycles between resets
+
     Bench(Module& module, Random& random) : module_(module), random_(random) {}
     virtual ~Bench() = default;
     Bench(const Bench&) = delete;
@@ -289,7 +293,7 @@ std::string cosimulate(std::uint64_t cycles, std::uint64_t seed, Select&& select
     Module module(&context);
     select(module);
     for (std::uint64_t done = 0; done < cycles;) {
-        const auto episode = static_cast<std::uint64_t>(random.in(1, 4000));
+        const auto episode = static_cast<std::uint64_t>(random.in(1, BenchOf<Module>::kLongestEpisode));
         auto bench = std::make_unique<BenchOf<Module>>(module, random);
         const std::string difference = bench->run(episode);
         if (!difference.empty()) {
