@@ -197,3 +197,60 @@ typedef struct packed {
   logic [2:0] x;
   logic [2:0] y;
 } hop_lookup_t;
+
+// Texels and patches of `parallel`: engine/model/signals/parallel_messages.hpp.
+
+typedef struct packed {
+  logic [8:0] id;
+  logic is_there;
+  logic second;
+  logic [8:0] weight;
+  logic last;
+  logic is_final;
+  logic [8:0] next;
+} sample_head_t;
+
+typedef struct packed {
+  logic [3:0] view;
+  logic [6:0] image;
+  logic [5:0] block_column;
+  logic [5:0] block_row;
+  logic [6:0] line;
+  logic [9:0] guard;
+} texel_fill_t;
+
+typedef struct packed {
+  logic [30:0] head;  // sample_head_t
+  logic is_inside;
+  logic [2:0] fx;
+  logic [2:0] fy;
+  logic [127:0] rgba;  // [texel], R in the low byte
+} texel_quad_t;
+
+typedef struct packed {
+  logic [30:0] head;
+  logic is_inside;
+  logic [13:0] a;
+  logic [21:0] r;
+  logic [21:0] g;
+  logic [21:0] b;
+} filtered_sample_t;
+
+typedef struct packed {
+  logic [3:0] view;
+  logic [1:0] slot;
+  logic [4:0] stripe;     // first column / 16
+  logic [5:0] patch_row;  // first row / 8
+  logic [4:0] columns;
+  logic [3:0] rows;
+  logic ends_stripe;
+  logic ends_view;
+} patch_job_t;
+
+typedef struct packed {
+  logic [8:0] id;
+  logic [3:0] view;
+  logic [1:0] stripe;
+  logic [8:0] row;
+  logic [27:0] rise_q24;  // signed
+} scanned_pixel_t;

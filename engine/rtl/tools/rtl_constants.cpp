@@ -3,6 +3,7 @@
 // the model, so that RTL and model cannot differ in them.
 
 #include "engine/model/board_top.hpp"
+#include "engine/model/limits/parallel_layout.hpp"
 #include "rayspace/codec/dense_tile.hpp"
 #include "rayspace/file/file_output.hpp"
 
@@ -101,6 +102,22 @@ void add_block_decompression(PackageText& package) {
     package.add("run_pixels", BlockScan::kMaxPixels);
 }
 
+// Messages and limits of the blocks of `parallel`.
+void add_parallel_blocks(PackageText& package) {
+    package.add("fills_bits", TexelFill::kBits);
+    package.add("targets_bits", FillTarget::kBits);
+    package.add("kinds_bits", FillKind::kBits);
+    package.add("quads_bits", TexelQuad::kBits);
+    package.add("filtered_bits", FilteredSample::kBits);
+    package.add("patches_bits", PatchJob::kBits);
+    package.add("scanned_bits", ScannedPixel::kBits);
+    package.add("resolved_bits", FinishedPixel::kBits);
+    package.add("empty_bits", FinishedPixel::kBitsOfEmpty);
+    package.add("texel_filter_stages", TexelFilter::kStages);
+    package.add("raw_block_words", kRawBlockWords);
+    package.add("stripe_turn", kStripeTurn);
+}
+
 void add_limits(PackageText& package, const BoardLimits& limits) {
     package.add("objects", limits.objects);
     package.add("object_bits", bits_of(limits.objects - 1));
@@ -167,6 +184,7 @@ Status write_constants(const std::string& config_name, const std::string& path) 
     add_latencies(package);
     add_tags(package);
     add_block_decompression(package);
+    add_parallel_blocks(package);
     add_limits(package, config.limits);
     add_memory(package, config.memory, top.registers);
     add_buses(package, config);

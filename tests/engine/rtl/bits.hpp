@@ -237,12 +237,6 @@ inline Bits pack(const model::CodedPixel& m, int width_bits) {
     return writer.bits();
 }
 
-/// A message of a FIFO of `width_bits`. Most messages have one width.
-template <class T>
-Bits pack(const T& message, int /*width_bits*/) {
-    return pack(message);
-}
-
 /// Writes the low `width_bits` bits to a port.
 template <class Port>
 void write_port(Port& port, const Bits& bits, int width_bits) {

@@ -8,9 +8,11 @@
 
 #include "engine/model/clock/block.hpp"
 #include "tests/engine/rtl/bits.hpp"
+#include "tests/engine/rtl/parallel_bits.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -20,6 +22,12 @@
 #include <vector>
 
 namespace rs::engine::rtl {
+
+/// A message of a FIFO of `width_bits`. Most messages have one width.
+template <class T>
+Bits pack(const T& message, int /*width_bits*/) {
+    return pack(message);
+}
 
 /// Random numbers of a test.
 class Random {
@@ -304,13 +312,18 @@ std::string cosimulate(std::uint64_t cycles, std::uint64_t seed, Select&& select
     return {};
 }
 
-inline constexpr std::uint64_t kCosimulatedCycles = 100'000;
+/// Cycles of a co-simulation: 100,000, or RAYSPACE_RTL_CYCLES.
+inline std::uint64_t cosimulated_cycles() {
+    constexpr std::uint64_t kCycles = 100'000;
+    const char* const cycles = std::getenv("RAYSPACE_RTL_CYCLES");
+    return cycles == nullptr ? kCycles : std::strtoull(cycles, nullptr, 10);
+}
 inline constexpr std::uint64_t kMutantCycles = 40'000;
 inline constexpr int kLeastMutants = 5;
 
 template <template <class> class BenchOf, class Module>
 void expect_equal_to_model() {
-    EXPECT_EQ((cosimulate<BenchOf, Module>(kCosimulatedCycles, 1, [](Module&) {})), "");
+    EXPECT_EQ((cosimulate<BenchOf, Module>(cosimulated_cycles(), 1, [](Module&) {})), "");
 }
 
 /// Every mutant of the module (NAME.mutants) must differ from the model; mutant 0 is the module itself.

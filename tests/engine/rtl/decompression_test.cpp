@@ -78,13 +78,13 @@ private:
 
 // Views of two objects in turn, each of which begins with its codebooks.
 template <class Module>
-std::string decompress_in_lockstep(Module& module, std::size_t views_of_each) {
+LockstepRun decompress_in_lockstep(Module& module, std::size_t views_of_each, std::uint64_t seed) {
     model::Board board(model::test::compressed());
     std::vector<model::BoardView> views;
-    for (const std::uint64_t seed : {5U, 13U}) {  // predictions of three hops in the first views
+    for (const std::uint64_t object_seed : {5 + 16 * seed, 13 + 16 * seed}) {
         std::mt19937_64 random_views(11);
-        const RaySpaceObject object =
-            model::test::random_coded_object({.views = 12, .width = 90, .height = 70, .planes = 6, .seed = seed});
+        const RaySpaceObject object = model::test::random_coded_object(
+            {.views = 12, .width = 90, .height = 70, .planes = 6, .seed = object_seed});
         const Result<int> slot = board.place(object);
         EXPECT_TRUE(slot.ok());
         for (std::size_t n = 0; n < views_of_each; ++n) {
@@ -93,24 +93,22 @@ std::string decompress_in_lockstep(Module& module, std::size_t views_of_each) {
         }
     }
     board.submit(views);
-    Random random(5);
+    Random random(seed);
     const std::string difference = DecompressionBench<Module>(module, board, random).run(views.size());
-    if (difference.empty()) {
+    if (difference.empty() && seed == 0) {  // the first views of its objects have predictions of three hops
         EXPECT_GT(model::test::block_decompression(board).hop_fifos[3]->records.total_pushed(), 0U);
     }
-    return difference;
+    return {difference, board.top().simulator.board_cycles()};
 }
 
 TEST(RtlDecompression, EqualsTheBoard) {
-    VerilatedContext context;
-    context.randReset(2);
-    Vdecompression module(&context);
-    EXPECT_EQ(decompress_in_lockstep(module, 7), "");
+    expect_equal_in_lockstep<Vdecompression>(
+        [](Vdecompression& module, std::uint64_t seed) { return decompress_in_lockstep(module, 7, seed); });
 }
 
 TEST(RtlDecompression, MutantsDifferFromTheBoard) {
     expect_mutants_differ_in_lockstep<Vdecompression_mutants>(
-        [](Vdecompression_mutants& module) { return decompress_in_lockstep(module, 2); });
+        [](Vdecompression_mutants& module) { return decompress_in_lockstep(module, 2, 0); });
 }
 
 }  // namespace

@@ -174,7 +174,27 @@ private:
     std::vector<std::unique_ptr<LockstepEnd>> ends_;
 };
 
-/// Runs `render(module)` for each mutant of the module (NAME.mutants), which must give a difference, and for mutant 0,
+/// Result of a run beside a board.
+struct LockstepRun {
+    std::string difference;  // between model and RTL, or ""
+    std::uint64_t cycles = 0;
+};
+
+/// Calls `render(module, seed)` with seeds from 0 for at least cosimulated_cycles() cycles.
+template <class Module, class Render>
+void expect_equal_in_lockstep(Render&& render) {
+    VerilatedContext context;
+    context.randReset(2);
+    Module module(&context);
+    std::uint64_t seed = 0;
+    for (std::uint64_t cycles = 0; cycles < cosimulated_cycles(); ++seed) {
+        const LockstepRun run = render(module, seed);
+        ASSERT_EQ(run.difference, "") << "seed " << seed;
+        cycles += run.cycles;
+    }
+}
+
+/// Calls `render(module)` for each mutant of the module (NAME.mutants), which must give a difference, and for mutant 0,
 /// the module itself, which must not.
 template <class Module, class Render>
 void expect_mutants_differ_in_lockstep(Render&& render) {
@@ -184,7 +204,7 @@ void expect_mutants_differ_in_lockstep(Render&& render) {
         Module module(&context);
         module.mutant = static_cast<CData>(mutant);
         module.eval();
-        return std::pair(render(module), static_cast<int>(module.mutants));
+        return std::pair(render(module).difference, static_cast<int>(module.mutants));
     };
     const auto [difference, mutants] = render_mutant(0);
     EXPECT_EQ(difference, "");

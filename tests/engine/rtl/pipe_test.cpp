@@ -96,13 +96,13 @@ private:
 
 // Two rendering cycles of random views, beside which another object is loaded. Returns the first difference, or "".
 template <class Module>
-std::string render_in_lockstep(Module& module, std::size_t views_per_cycle) {
+LockstepRun render_in_lockstep(Module& module, std::size_t views_per_cycle, std::uint64_t seed) {
     const RaySpaceObject object = rs::test::ring_object({.views = 12, .planes = 12});
     model::Board board(model::test::prototype());
     const Result<int> slot = board.place(object);
     EXPECT_TRUE(slot.ok());
     EXPECT_TRUE(board.start_load(rs::test::ring_object({.views = 4, .width = 16, .height = 16, .planes = 3})).ok());
-    std::mt19937_64 random_views(7);
+    std::mt19937_64 random_views(7 + seed);
     for (int cycle = 0; cycle < 2; ++cycle) {
         std::vector<model::BoardView> views;
         while (views.size() < views_per_cycle) {
@@ -111,20 +111,19 @@ std::string render_in_lockstep(Module& module, std::size_t views_per_cycle) {
         }
         board.submit(views);
     }
-    Random random(5);
-    return PipeBench<Module>(module, board, random).run(2 * views_per_cycle);
+    Random random(5 + seed);
+    const std::string difference = PipeBench<Module>(module, board, random).run(2 * views_per_cycle);
+    return {difference, board.top().simulator.board_cycles()};
 }
 
 TEST(RtlPipe, EqualsTheBoard) {
-    VerilatedContext context;
-    context.randReset(2);
-    Vpipe module(&context);
-    EXPECT_EQ(render_in_lockstep(module, 7), "");
+    expect_equal_in_lockstep<Vpipe>(
+        [](Vpipe& module, std::uint64_t seed) { return render_in_lockstep(module, 7, seed); });
 }
 
 TEST(RtlPipe, MutantsDifferFromTheBoard) {
     expect_mutants_differ_in_lockstep<Vpipe_mutants>(
-        [](Vpipe_mutants& module) { return render_in_lockstep(module, 2); });
+        [](Vpipe_mutants& module) { return render_in_lockstep(module, 2, 0); });
 }
 
 }  // namespace
