@@ -7,48 +7,27 @@
 // of the last n - 1 commands. A bank that was closed since has kept the rules of its commands before. With the times of
 // prototype-2000, a client that opens a row uses it before the row may be closed, so that the rules from ACTIVATE matter
 // in front of a window only.
-module memory_controller (
+module memory_controller #(
+    parameter int PORTS = 4,      // read ports
+    parameter int ROOM_BITS = 5,  // of the space in an answer FIFO
+    parameter int IMAGE_WRITES_DEPTH = board::IMAGE_WRITES_DEPTH
+) (
     input  logic clk,
     input  logic rst,
 
-    // Read ports in their order of service. The space in an answer FIFO is reserved before a read is accepted, so that
-    // its `ready` is not used.
-    input  logic host_reads_valid,
-    output logic host_reads_ready,
-    input  logic [board::HOST_READS_BITS-1:0] host_reads_data,
-    input  logic map_reads_valid,
-    output logic map_reads_ready,
-    input  logic [board::MAP_READS_BITS-1:0] map_reads_data,
-    input  logic line_reads_valid,
-    output logic line_reads_ready,
-    input  logic [board::LINE_READS_BITS-1:0] line_reads_data,
-    input  logic sample_reads_valid,
-    output logic sample_reads_ready,
-    input  logic [board::SAMPLE_READS_BITS-1:0] sample_reads_data,
-
-    /* verilator lint_off UNUSEDSIGNAL */
-    output logic host_words_valid,
-    input  logic host_words_ready,
-    output logic [board::HOST_WORDS_BITS-1:0] host_words_data,
-    input  logic [$clog2(board::HOST_WORDS_DEPTH+1)-1:0] host_words_room,
-    output logic map_words_valid,
-    input  logic map_words_ready,
-    output logic [board::MAP_WORDS_BITS-1:0] map_words_data,
-    input  logic [$clog2(board::MAP_WORDS_DEPTH+1)-1:0] map_words_room,
-    output logic line_words_valid,
-    input  logic line_words_ready,
-    output logic [board::LINE_WORDS_BITS-1:0] line_words_data,
-    input  logic [$clog2(board::LINE_WORDS_DEPTH+1)-1:0] line_words_room,
-    output logic sample_words_valid,
-    input  logic sample_words_ready,
-    output logic [board::SAMPLE_WORDS_BITS-1:0] sample_words_data,
-    input  logic [$clog2(board::SAMPLE_WORDS_DEPTH+1)-1:0] sample_words_room,
-    /* verilator lint_on UNUSEDSIGNAL */
+    // Read ports in their order of service, the first one in the low bits. The space in an answer FIFO is reserved before
+    // a read is accepted, so that the answers have no `ready`. All answers are on the same lines.
+    input  logic [PORTS-1:0] reads_valid,
+    output logic [PORTS-1:0] reads_ready,
+    input  logic [PORTS*board::SAMPLE_READS_BITS-1:0] reads_data,
+    output logic [PORTS-1:0] words_valid,
+    output logic [board::SAMPLE_WORDS_BITS-1:0] words_data,
+    input  logic [PORTS*ROOM_BITS-1:0] words_room,
 
     input  logic image_writes_valid,
     output logic image_writes_ready,
     input  logic [board::IMAGE_WRITES_BITS-1:0] image_writes_data,
-    input  logic [$clog2(board::IMAGE_WRITES_DEPTH+1)-1:0] image_writes_count,
+    input  logic [$clog2(IMAGE_WRITES_DEPTH+1)-1:0] image_writes_count,
     output logic view_written_valid,
     input  logic view_written_ready,
     output logic [board::VIEW_WRITTEN_BITS-1:0] view_written_data,
@@ -84,41 +63,30 @@ module memory_controller (
   localparam int COLUMN_BITS = board::SDRAM_COLUMN_BITS;
 
   //---- Arriving words -----------------------------------------------------------------------------------------------
-  // Read ports as bits, in their order of service. The lowest four bits of `flight`: the port of the read of the last
-  // cycle; the highest: that whose word is in the input register.
-  localparam int HOST = 0;
-  localparam int MAP = 1;
-  localparam int LINE = 2;
-  localparam int SAMPLE = 3;
+  // A bit for each read port: in the low bits of `flight` the port of the read of the last cycle, in the high ones that
+  // whose word is in the input register.
   localparam int FLIGHT = board::SDRAM_READ_LATENCY + board::SDRAM_INTERFACE_LATENCY;
   localparam int FLIGHT_BITS = $clog2(FLIGHT + 1);
-  logic [4*FLIGHT-1:0] flight;
+  logic [PORTS*FLIGHT-1:0] flight;
   logic [FLIGHT-1:0] flight_null;
-  logic [3:0] accepts, delivers;
+  logic [PORTS-1:0] accepts, delivers;
   logic reads_null;
-  logic [63:0] read_data, arriving;
-  assign delivers = flight[4*(FLIGHT-1)+:4];
+  logic [63:0] read_data;
+  assign delivers = flight[PORTS*(FLIGHT-1)+:PORTS];
   always_ff @(posedge clk) begin
     if (rst) flight <= '0;
-    else flight <= {flight[4*(FLIGHT-1)-1:0], accepts};
+    else flight <= {flight[PORTS*(FLIGHT-1)-1:0], accepts};
     flight_null <= {flight_null[FLIGHT-2:0], reads_null};
     read_data <= sdram_read_data;
   end
-  assign arriving = flight_null[FLIGHT-1] ? 64'd0 : read_data;
-  assign host_words_valid = delivers[HOST];
-  assign map_words_valid = delivers[MAP];
-  assign line_words_valid = delivers[LINE];
-  assign sample_words_valid = delivers[SAMPLE];
-  assign host_words_data = arriving;
-  assign map_words_data = arriving;
-  assign line_words_data = arriving;
-  assign sample_words_data = arriving;
+  assign words_valid = delivers;
+  assign words_data = flight_null[FLIGHT-1] ? 64'd0 : read_data;
 
   // Words of each port on their way. Counted, because to add up the bits of `flight` would be in front of the choice.
-  logic [4*FLIGHT_BITS-1:0] outstanding;
+  logic [PORTS*FLIGHT_BITS-1:0] outstanding;
   genvar port;
   generate
-    for (port = 0; port < 4; port = port + 1) begin : ports
+    for (port = 0; port < PORTS; port = port + 1) begin : ports
       logic [FLIGHT_BITS-1:0] without, with_read;
       assign without = outstanding[FLIGHT_BITS*port+:FLIGHT_BITS] - FLIGHT_BITS'(delivers[port]);
       assign with_read = without + FLIGHT_BITS'(1);
@@ -149,31 +117,32 @@ module memory_controller (
   //---- Client: a batch of image writes, the read ports in order, other image writes -----------------------------------
   localparam int BATCH_BITS = $clog2(board::WRITE_BATCH + 1);
   localparam logic [BATCH_BITS-1:0] FULL_BATCH = BATCH_BITS'(board::WRITE_BATCH);
-  localparam int COUNT_BITS = $clog2(board::IMAGE_WRITES_DEPTH + 1);
+  localparam int COUNT_BITS = $clog2(IMAGE_WRITES_DEPTH + 1);
   localparam logic [COUNT_BITS-1:0] BATCH_COUNT = COUNT_BITS'(board::WRITE_BATCH);
   // A client keeps the port until its word is transferred: `is_chosen`, and `chosen`, a bit for each client. Image
   // writes are the client behind the read ports.
-  localparam int IMAGE = 4;
   logic is_chosen;
-  logic [4:0] chosen, first, client;
-  logic [3:0] may_ask;
+  logic [PORTS:0] chosen, first, client;
+  logic [PORTS-1:0] may_ask;
   logic [BATCH_BITS-1:0] batch_left, batch;
-  logic is_full_batch, continues_batch;
+  logic is_full_batch, continues_batch, writes_first, is_image;
   assign is_full_batch = image_writes_count >= BATCH_COUNT;
   assign continues_batch = image_writes_valid && (is_full_batch || batch_left != '0);
-  assign may_ask[HOST] = host_reads_valid && 5'(host_words_room) > 5'(outstanding[FLIGHT_BITS*HOST+:FLIGHT_BITS]);
-  assign may_ask[MAP] = map_reads_valid && 5'(map_words_room) > 5'(outstanding[FLIGHT_BITS*MAP+:FLIGHT_BITS]);
-  assign may_ask[LINE] = line_reads_valid && 5'(line_words_room) > 5'(outstanding[FLIGHT_BITS*LINE+:FLIGHT_BITS]);
-  assign may_ask[SAMPLE] = sample_reads_valid && 5'(sample_words_room) > 5'(outstanding[FLIGHT_BITS*SAMPLE+:FLIGHT_BITS]);
-  assign first[HOST] = !continues_batch && may_ask[HOST];
-  assign first[MAP] = !continues_batch && may_ask[MAP] && !may_ask[HOST];
-  assign first[LINE] = !continues_batch && may_ask[LINE] && !may_ask[MAP] && !may_ask[HOST];
-  assign first[SAMPLE] = !continues_batch && may_ask[SAMPLE] && !may_ask[LINE] && !may_ask[MAP] && !may_ask[HOST];
-  assign first[IMAGE] = image_writes_valid && (continues_batch || may_ask == 4'd0);
+  generate
+    for (port = 0; port < PORTS; port = port + 1) begin : choice
+      localparam logic [PORTS-1:0] BEFORE = PORTS'((1 << port) - 1);
+      assign may_ask[port] = reads_valid[port] &&
+          words_room[ROOM_BITS*port+:ROOM_BITS] > ROOM_BITS'(outstanding[FLIGHT_BITS*port+:FLIGHT_BITS]);
+      assign first[port] = !continues_batch && may_ask[port] && (may_ask & BEFORE) == '0;
+    end
+  endgenerate
+  assign writes_first = image_writes_valid && (continues_batch || may_ask == '0);
+  assign first[PORTS] = writes_first;
   assign client = is_chosen ? chosen : first;
+  assign is_image = client[PORTS];
   always_comb begin
     if (is_chosen) batch = batch_left;
-    else if (!first[IMAGE]) batch = '0;
+    else if (!writes_first) batch = '0;
     else if (batch_left != '0) batch = batch_left;
     else batch = is_full_batch ? FULL_BATCH : BATCH_BITS'(image_writes_count);
   end
@@ -182,8 +151,14 @@ module memory_controller (
   memory_write_t image_write, load;
   assign image_write = image_writes_data;
   assign load = load_words_data;
-  assign read = (client[HOST] ? host_reads_data : '0) | (client[MAP] ? map_reads_data : '0) |
-                (client[LINE] ? line_reads_data : '0) | (client[SAMPLE] ? sample_reads_data : '0);
+  logic [board::SAMPLE_READS_BITS-1:0] selected;
+  always_comb begin
+    selected = '0;
+    for (int n = 0; n < PORTS; n = n + 1) begin
+      if (client[n]) selected = selected | reads_data[board::SAMPLE_READS_BITS*n+:board::SAMPLE_READS_BITS];
+    end
+  end
+  assign read = selected;
 
   //---- Banks and timing rules ---------------------------------------------------------------------------------------
   localparam int HISTORY = 3;
@@ -208,7 +183,7 @@ module memory_controller (
   logic [ROW_BITS-1:0] row;
   logic is_open_bank;
   genvar number;
-  assign address = read.address | (client[IMAGE] ? image_write.address : '0);
+  assign address = read.address | (is_image ? image_write.address : '0);
   assign bank = address[COLUMN_BITS+ROW_BITS+:BANK_BITS];
   assign row = address[COLUMN_BITS+:ROW_BITS];
   generate
@@ -258,12 +233,12 @@ module memory_controller (
       (!load.last || object_loaded_ready);
   assign closes_load = state == LOADING && at == AT_BITS'(CLOSES) && load_row_open;
 
-  assign writes_image = !in_window && client[IMAGE] && may_write && (!image_write.last || view_written_ready);
-  assign reads = !in_window && may_read && !read.is_null && client[3:0] != 4'd0;
+  assign writes_image = !in_window && is_image && may_write && (!image_write.last || view_written_ready);
+  assign reads = !in_window && may_read && !read.is_null && client[PORTS-1:0] != '0;
   assign reads_null = !in_window && read.is_null;
-  assign accepts = reads || reads_null ? client[3:0] : 4'd0;
-  assign activates = !in_window && client != 5'd0 && !reads_null && may_activate;
-  assign precharges = !in_window && client != 5'd0 && !reads_null && is_open_bank && !has_row && may_precharge;
+  assign accepts = reads || reads_null ? client[PORTS-1:0] : '0;
+  assign activates = !in_window && client != '0 && !reads_null && may_activate;
+  assign precharges = !in_window && client != '0 && !reads_null && is_open_bank && !has_row && may_precharge;
 
   logic [2:0] window_command, command;
   assign window_command = closes_all || closes_load ? PRECHARGE_ALL : refreshes ? REFRESH :
@@ -271,10 +246,7 @@ module memory_controller (
   assign command = window_command | (writes_image ? WRITE : NONE) | (reads ? READ : NONE) |
                    (activates ? ACTIVATE : NONE) | (precharges ? PRECHARGE : NONE);
 
-  assign host_reads_ready = accepts[HOST];
-  assign map_reads_ready = accepts[MAP];
-  assign line_reads_ready = accepts[LINE];
-  assign sample_reads_ready = accepts[SAMPLE];
+  assign reads_ready = accepts;
   assign image_writes_ready = writes_image;
   assign load_words_ready = loads;
   assign view_written_valid = writes_image && image_write.last;
@@ -297,7 +269,7 @@ module memory_controller (
       if (refreshes) state <= LOADING;
       if (state == LOADING && at == AT_BITS'(LAST)) state <= SERVING;
       if (!in_window) begin
-        is_chosen <= client != 5'd0 && !(writes_image || reads || reads_null);
+        is_chosen <= client != '0 && !(writes_image || reads || reads_null);
         batch_left <= writes_image ? batch - BATCH_BITS'(1) : batch;
       end
       is_open <= closes_all ? '0 : (is_open | (activates ? is_bank : '0)) & ~(precharges ? is_bank : '0);

@@ -104,6 +104,7 @@ void add_block_decompression(PackageText& package) {
 
 // Messages and limits of the blocks of `parallel`.
 void add_parallel_blocks(PackageText& package) {
+    package.add("direction_bits", RayPoint::kBitsWithDirection - RayPoint::kBits);
     package.add("fills_bits", TexelFill::kBits);
     package.add("targets_bits", FillTarget::kBits);
     package.add("kinds_bits", FillKind::kBits);
@@ -113,6 +114,9 @@ void add_parallel_blocks(PackageText& package) {
     package.add("scanned_bits", ScannedPixel::kBits);
     package.add("resolved_bits", FinishedPixel::kBits);
     package.add("empty_bits", FinishedPixel::kBitsOfEmpty);
+    package.add("again_bits", ReturnedPixel::kBits);
+    package.add("surface_blend_stages", SurfaceBlend::kStages);
+    package.add("covering_alpha", kCoveringAlpha);
     package.add("texel_filter_stages", TexelFilter::kStages);
     package.add("raw_block_words", kRawBlockWords);
     package.add("stripe_turn", kStripeTurn);

@@ -16,9 +16,9 @@
 
 namespace rs::engine::rtl {
 
-/// Value of a port of at most 384 bits, in words of 32 bits, the lowest first.
+/// Value of a port of at most 512 bits, in words of 32 bits, the lowest first.
 struct Bits {
-    static constexpr int kWords = 12;
+    static constexpr int kWords = 16;
     std::array<std::uint32_t, kWords> words{};
     bool operator==(const Bits&) const = default;
 };
@@ -71,25 +71,26 @@ inline Bits pack(const model::ColumnRay& m) {
         .put(m.t_q28, 32)
         .bits();
 }
-inline Bits pack(const model::RayPoint& m) {
-    return BitsWriter(m.kBits)
-        .put(m.view, 4)
-        .put(m.has_ray, 1)
-        .put(m.plane, 4)
-        .put(m.x_q20, 23)
-        .put(m.lambda_q20, 29)
-        .put(static_cast<std::int64_t>(m.cell_byte), 30)
-        .bits();
+// With slope and direction where the width has them.
+template <class Ray>
+Bits with_direction(BitsWriter& writer, const Ray& m, int width_bits) {
+    if (width_bits == m.kBitsWithDirection) writer.put(m.u_q28, 30).put(m.n_q28, 31).put(m.t_q28, 32);
+    return writer.bits();
 }
-inline Bits pack(const model::MappedRay& m) {
-    return BitsWriter(m.kBits)
-        .put(m.view, 4)
+inline Bits pack(const model::RayPoint& m, int width_bits) {
+    BitsWriter writer(width_bits);
+    writer.put(m.view, 4)
         .put(m.has_ray, 1)
         .put(m.plane, 4)
         .put(m.x_q20, 23)
         .put(m.lambda_q20, 29)
-        .put(m.image, 7)
-        .bits();
+        .put(static_cast<std::int64_t>(m.cell_byte), 30);
+    return with_direction(writer, m, width_bits);
+}
+inline Bits pack(const model::MappedRay& m, int width_bits) {
+    BitsWriter writer(width_bits);
+    writer.put(m.view, 4).put(m.has_ray, 1).put(m.plane, 4).put(m.x_q20, 23).put(m.lambda_q20, 29).put(m.image, 7);
+    return with_direction(writer, m, width_bits);
 }
 inline Bits pack(const model::RayLine& m) {
     BitsWriter writer(m.kBits);

@@ -81,7 +81,8 @@ public:
 // A random value on the data lines of an empty FIFO: the module must not depend on it.
 inline Bits random_bits(Random& random) {
     Bits bits;
-    for (std::uint32_t& word : bits.words) word = static_cast<std::uint32_t>(random.word());
+    constexpr std::size_t kMessageWords = 12;
+    for (std::size_t n = 0; n < kMessageWords; ++n) bits.words[n] = static_cast<std::uint32_t>(random.word());
     return bits;
 }
 
@@ -205,11 +206,13 @@ private:
 // Ports NAME_valid, NAME_ready and NAME_data of a module.
 #define RS_RTL_PORTS(module, name) (module).name##_valid, (module).name##_ready, (module).name##_data
 
+inline constexpr std::int64_t kUsualEpisode = 4000;
+
 /// Base of the benches: connects a module to the model's FIFOs.
 template <class Module>
 class Bench {
 public:
-    static constexpr std::int64_t kLongestEpisode = 4000;  // cycles between resets
+    static constexpr std::int64_t kLongestEpisode = kUsualEpisode;  // cycles between resets
 
     Bench(Module& module, Random& random) : module_(module), random_(random) {}
     virtual ~Bench() = default;
@@ -290,8 +293,8 @@ private:
     std::vector<std::unique_ptr<Channel>> channels_;
 };
 
-/// Co-simulates for `cycles` cycles in episodes of random length. `select` is called with the new module: it chooses a
-/// mutant. Returns the first difference, or "".
+/// Co-simulates for `cycles` cycles in episodes of random length; benches of long episodes for as many of them.
+/// `select` is called with the new module: it chooses a mutant. Returns the first difference, or "".
 template <template <class> class BenchOf, class Module, class Select>
 std::string cosimulate(std::uint64_t cycles, std::uint64_t seed, Select&& select) {
     Random random(seed);
@@ -300,8 +303,9 @@ std::string cosimulate(std::uint64_t cycles, std::uint64_t seed, Select&& select
     context.randSeed(static_cast<int>(random.in(1, 1 << 30)));
     Module module(&context);
     select(module);
-    for (std::uint64_t done = 0; done < cycles;) {
-        const auto episode = static_cast<std::uint64_t>(random.in(1, BenchOf<Module>::kLongestEpisode));
+    constexpr std::int64_t kLongest = BenchOf<Module>::kLongestEpisode;
+    for (std::uint64_t done = 0; done < cycles * static_cast<std::uint64_t>(kLongest / kUsualEpisode);) {
+        const auto episode = static_cast<std::uint64_t>(random.in(1, kLongest));
         auto bench = std::make_unique<BenchOf<Module>>(module, random);
         const std::string difference = bench->run(episode);
         if (!difference.empty()) {
@@ -318,7 +322,7 @@ inline std::uint64_t cosimulated_cycles() {
     const char* const cycles = std::getenv("RAYSPACE_RTL_CYCLES");
     return cycles == nullptr ? kCycles : std::strtoull(cycles, nullptr, 10);
 }
-inline constexpr std::uint64_t kMutantCycles = 40'000;
+inline constexpr std::uint64_t kMutantCycles = 100'000;
 inline constexpr int kLeastMutants = 5;
 
 template <template <class> class BenchOf, class Module>

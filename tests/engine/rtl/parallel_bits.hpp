@@ -36,6 +36,9 @@ inline Bits pack(const model::FinishedPixel& m, int width_bits) {
     writer.put(m.id, 9);
     return width_bits == m.kBitsOfEmpty ? writer.bits() : writer.put(m.rgba, 32).bits();
 }
+inline Bits pack(const model::ReturnedPixel& m) {
+    return BitsWriter(m.kBits).put(m.id, 9).put(m.state.begin, 9).bits();
+}
 inline Bits pack(const model::TexelFill& m) {
     return BitsWriter(m.kBits)
         .put(m.view, 4)
