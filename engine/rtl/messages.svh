@@ -97,13 +97,13 @@ typedef struct packed {
   logic [5:0] lane_1;
 } sample_tag_t;
 
+// Followed by alpha: 2 bits from uncompressed images, 8 from compressed ones.
 typedef struct packed {
   logic [3:0] view;
   logic [7:0] y;
   logic [7:0] u;
   logic [7:0] v;
-  logic [1:0] alpha;
-} yuva_pixel_t;
+} yuv_pixel_t;
 
 typedef struct packed {
   logic [3:0] view;
@@ -150,7 +150,29 @@ typedef struct packed {
   logic [2:0] words;
 } requested_record_t;
 
-// A pixel before hop 0.
+// A record, split into its fields. Arrays have index 0 in the low bits; fields that the class lacks are 0.
+typedef struct packed {
+  logic [5:0] block_row;
+  logic is_empty;
+  logic [7:0] record_class;  // record_class_t
+  logic [6:0] motion_y;      // signed
+  logic [2:0] reference_column;
+  logic [23:0] flat;         // [Y, U, V]
+  logic [15:0] block;        // [stage]
+  logic [127:0] quarter;     // [stage][quarter of the block]
+  logic [31:0] alpha;        // [quarter]
+} block_record_t;
+
+// A class of records, as in the file and in the register file.
+typedef struct packed {
+  logic [3:0] quarter_stages;
+  logic [1:0] block_stages;
+  logic has_alpha;
+  logic is_predicted;
+} record_class_t;
+
+// A pixel on its way through the hops is a coded_pixel_t, behind hop 0 followed by a coded_colour_t and a hop_lookup_t
+// of each hop that it has passed, hop 0 first.
 typedef struct packed {
   logic [3:0] view;
   logic is_visible;
@@ -159,3 +181,76 @@ typedef struct packed {
   logic [8:0] row;
   logic [2:0] column;
 } coded_pixel_t;
+
+typedef struct packed {
+  logic [23:0] flat;  // [Y, U, V], Y in the low byte
+  logic [1:0] alpha;  // ALPHA_NONE, ALPHA_FULL, ALPHA_BOOK
+  logic [7:0] alpha_entry;
+} coded_colour_t;
+
+typedef struct packed {
+  logic is_predicted;
+  logic [1:0] block_stages;
+  logic [2:0] quarter_stages;
+  logic [15:0] block;    // [stage]
+  logic [31:0] quarter;  // [stage], of the pixel's quarter
+  logic [2:0] x;
+  logic [2:0] y;
+} hop_lookup_t;
+
+// Texels and patches of `parallel`: engine/model/signals/parallel_messages.hpp.
+
+typedef struct packed {
+  logic [8:0] id;
+  logic is_there;
+  logic second;
+  logic [8:0] weight;
+  logic last;
+  logic is_final;
+  logic [8:0] next;
+} sample_head_t;
+
+typedef struct packed {
+  logic [3:0] view;
+  logic [6:0] image;
+  logic [5:0] block_column;
+  logic [5:0] block_row;
+  logic [6:0] line;
+  logic [9:0] guard;
+} texel_fill_t;
+
+typedef struct packed {
+  logic [30:0] head;  // sample_head_t
+  logic is_inside;
+  logic [2:0] fx;
+  logic [2:0] fy;
+  logic [127:0] rgba;  // [texel], R in the low byte
+} texel_quad_t;
+
+typedef struct packed {
+  logic [30:0] head;
+  logic is_inside;
+  logic [13:0] a;
+  logic [21:0] r;
+  logic [21:0] g;
+  logic [21:0] b;
+} filtered_sample_t;
+
+typedef struct packed {
+  logic [3:0] view;
+  logic [1:0] slot;
+  logic [4:0] stripe;     // first column / 16
+  logic [5:0] patch_row;  // first row / 8
+  logic [4:0] columns;
+  logic [3:0] rows;
+  logic ends_stripe;
+  logic ends_view;
+} patch_job_t;
+
+typedef struct packed {
+  logic [8:0] id;
+  logic [3:0] view;
+  logic [1:0] stripe;
+  logic [8:0] row;
+  logic [27:0] rise_q24;  // signed
+} scanned_pixel_t;

@@ -2,34 +2,7 @@
 // FIFOs of the depths of the model (PipeFifos and SingleBoard of engine/model/board_top.hpp). The FIFOs at its ports
 // belong to the surroundings: render control, host DMA, disk controller. Register look-ups are named by their block.
 
-// A FIFO of the pipe: NAME_in is written by a block, NAME_out is read by another.
-`define PIPE_FIFO(name, NAME) \
-  logic name``_in_valid, name``_in_ready, name``_out_valid, name``_out_ready; \
-  logic [board::NAME``_BITS-1:0] name``_in_data, name``_out_data; \
-  /* verilator lint_off UNUSEDSIGNAL */ \
-  logic [$clog2(board::NAME``_DEPTH+1)-1:0] name``_count; \
-  /* verilator lint_on UNUSEDSIGNAL */ \
-  fifo #( \
-      .WIDTH(board::NAME``_BITS), \
-      .DEPTH(board::NAME``_DEPTH) \
-  ) name``_fifo ( \
-      .clk(clk), \
-      .rst(rst), \
-      .in_valid(name``_in_valid), \
-      .in_ready(name``_in_ready), \
-      .in_data(name``_in_data), \
-      .out_valid(name``_out_valid), \
-      .out_ready(name``_out_ready), \
-      .out_data(name``_out_data), \
-      .count(name``_count) \
-  );
-
-// Ports of a block that writes, and of one that reads.
-`define PIPE_WRITES(name) \
-  .name``_valid(name``_in_valid), .name``_ready(name``_in_ready), .name``_data(name``_in_data)
-`define PIPE_READS(name) \
-  .name``_valid(name``_out_valid), .name``_ready(name``_out_ready), .name``_data(name``_out_data)
-`define PIPE_PORT(name) .name``_valid(name``_valid), .name``_ready(name``_ready), .name``_data(name``_data)
+`include "fifos.svh"
 
 module pipe (
     input  logic clk,
@@ -46,7 +19,9 @@ module pipe (
     output logic host_reads_ready,
     input  logic [board::HOST_READS_BITS-1:0] host_reads_data,
     output logic host_words_valid,
-    input  logic host_words_ready,
+    /* verilator lint_off UNUSEDSIGNAL */
+    input  logic host_words_ready,  // there is room for every word
+    /* verilator lint_on UNUSEDSIGNAL */
     output logic [board::HOST_WORDS_BITS-1:0] host_words_data,
     input  logic [$clog2(board::HOST_WORDS_DEPTH+1)-1:0] host_words_room,
 
@@ -127,10 +102,13 @@ module pipe (
   `PIPE_FIFO(samples, SAMPLES)
   `PIPE_FIFO(pixels, PIXELS)
   `PIPE_FIFO(map_reads, MAP_READS)
-  `PIPE_FIFO(map_words, MAP_WORDS)
   `PIPE_FIFO(line_reads, LINE_READS)
-  `PIPE_FIFO(line_words, LINE_WORDS)
   `PIPE_FIFO(sample_reads, SAMPLE_READS)
+  /* verilator lint_off UNUSEDSIGNAL */
+  `PIPE_FIFO(map_words, MAP_WORDS)
+  /* verilator lint_off UNUSEDSIGNAL */
+  `PIPE_FIFO(line_words, LINE_WORDS)
+  /* verilator lint_off UNUSEDSIGNAL */
   `PIPE_FIFO(sample_words, SAMPLE_WORDS)
   `PIPE_FIFO(image_writes, IMAGE_WRITES)
 
@@ -193,14 +171,23 @@ module pipe (
   assign map_words_room = $clog2(board::MAP_WORDS_DEPTH + 1)'(board::MAP_WORDS_DEPTH) - map_words_count;
   assign line_words_room = $clog2(board::LINE_WORDS_DEPTH + 1)'(board::LINE_WORDS_DEPTH) - line_words_count;
   assign sample_words_room = $clog2(board::SAMPLE_WORDS_DEPTH + 1)'(board::SAMPLE_WORDS_DEPTH) - sample_words_count;
-  memory_controller memory_controller_block (
+  // Read ports in their order of service, the first one on the right.
+  memory_controller #(
+      .PORTS(4)
+  ) memory_controller_block (
       .clk(clk), .rst(rst),
-      `PIPE_PORT(host_reads), `PIPE_READS(map_reads), `PIPE_READS(line_reads), `PIPE_READS(sample_reads),
-      `PIPE_PORT(host_words), `PIPE_WRITES(map_words), `PIPE_WRITES(line_words), `PIPE_WRITES(sample_words),
-      .host_words_room(host_words_room), .map_words_room(map_words_room), .line_words_room(line_words_room),
-      .sample_words_room(sample_words_room), `PIPE_READS(image_writes), .image_writes_count(image_writes_count),
+      .reads_valid({sample_reads_out_valid, line_reads_out_valid, map_reads_out_valid, host_reads_valid}),
+      .reads_ready({sample_reads_out_ready, line_reads_out_ready, map_reads_out_ready, host_reads_ready}),
+      .reads_data({sample_reads_out_data, line_reads_out_data, map_reads_out_data, host_reads_data}),
+      .words_valid({sample_words_in_valid, line_words_in_valid, map_words_in_valid, host_words_valid}),
+      .words_data(host_words_data),
+      .words_room({5'(sample_words_room), 5'(line_words_room), 5'(map_words_room), 5'(host_words_room)}),
+      `PIPE_READS(image_writes), .image_writes_count(image_writes_count),
       `PIPE_PORT(view_written), `PIPE_PORT(load_words), `PIPE_PORT(object_loaded),
       .sdram_command(sdram_command), .sdram_bank(sdram_bank), .sdram_row(sdram_row), .sdram_column(sdram_column),
       .sdram_write_data(sdram_write_data), .sdram_read_data(sdram_read_data)
   );
+  assign map_words_in_data = host_words_data;
+  assign line_words_in_data = host_words_data;
+  assign sample_words_in_data = host_words_data;
 endmodule

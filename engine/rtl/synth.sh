@@ -13,14 +13,22 @@ out=$build/rtl_synth
 mkdir -p "$out"
 cd "$rtl"
 
+# Blocks whose cells are added up.
+prototype="colour_conversion column_address disk_controller host_bus host_dma image_writer line_reader map_reader
+  memory_controller raster_generator ray_position render_control row_scan sample_fetch sample_select
+  vertical_compensation"
+
 # synthesize MODULE: writes $out/MODULE.row, a row of the table.
 synthesize() {
-  local module=$1 sources luts frequency
-  mapfile -t sources < <(find . -name '*.sv' | sort)
-  local read="read_verilog -sv $board ${sources[*]}"
+  local module=$1 sources memories luts frequency
+  mapfile -t sources < <(find . -name '*.sv' ! -path './memory/*' | sort)
+  memories=(memory/*.sv)
+  local read="read_verilog -sv $board ${sources[*]} ${memories[*]}"
 
   yosys -q -w "Replacing memory" -p "$read; hierarchy -top $module; proc; write_json $out/$module.ports.json"
-  yosys -q -w "Replacing memory" -p "$read; synth -flatten -top $module; abc -lut 4; tee -o $out/$module.lut.txt stat"
+  # Memories are not cells: black boxes.
+  yosys -q -w "Replacing memory" -p "read_verilog -sv $board ${sources[*]}; read_verilog -sv -lib ${memories[*]};
+    synth -flatten -top $module; abc -lut 4; tee -o $out/$module.lut.txt stat"
   yosys -q -w "Replacing memory" -p "$read; synth_ice40 -top $module; tee -o $out/$module.ice40.txt stat"
   luts=$(awk '$1 == "$lut" { print $2 }' "$out/$module.lut.txt")
   cells() { awk -v kind="$1" '$1 ~ kind { sum += $2 } END { print sum + 0 }' "$out/$module.ice40.txt"; }
@@ -43,7 +51,9 @@ if [ "${2:-}" = --module ]; then  # called by itself
   exit
 fi
 
-modules=$(find . -name '*.sv' ! -name pipe.sv -printf '%f\n' | sed 's/\.sv$//' | sort)
+# Without memories, and without the modules that only connect others.
+modules=$(find . -name '*.sv' ! -path './memory/*' ! -name pipe.sv ! -name decompression.sv ! -name record_chain.sv \
+  -printf '%f\n' | sed 's/\.sv$//' | sort)
 for module in $modules; do [ -f "$out/$module.row" ] || echo "$module"; done |
   xargs -P "${RAYSPACE_SYNTH_JOBS:-1}" -I{} "$rtl/$(basename "$0")" "$build" --module {}
 
@@ -52,7 +62,7 @@ for module in $modules; do [ -f "$out/$module.row" ] || echo "$module"; done |
 # Synthesis of the RTL
 
 Written by `engine/rtl/synth.sh`. Each module alone, with the constants of `prototype-2000`. "LUT4" is a generic mapping (`synth; abc -lut 4`), comparable to the logic cells of four inputs of the
-board's FPGA; LUTs, carry cells, flip-flops and block RAMs are those of an iCE40 HX8K (`synth_ice40`; it has 7680 cells). The frequency is that of the routed module, with shift registers between its ports
+board's FPGA, without memories; LUTs, carry cells, flip-flops and block RAMs are those of an iCE40 HX8K (`synth_ice40`; it has 7680 cells). The frequency is that of the routed module, with shift registers between its ports
 and the pins. The board's clock is 40 MHz.
 
 | module | LUT4 | iCE40 LUTs | carries | flip-flops | block RAMs | MHz on HX8K |
@@ -60,9 +70,9 @@ and the pins. The board's clock is 40 MHz.
 HEAD
   cat "$out"/*.row
   # Blocks hold the arithmetic that they use.
-  (cd blocks && for block in *.sv; do cat "$out/${block%.sv}.row"; done) |
+  for block in $prototype; do cat "$out/$block.row"; done |
     awk '{ for (n = 4; n <= 12; n += 2) sum[n] += $n }
-      END { printf "| all blocks | %d | %d | %d | %d | %d | |\n", sum[4], sum[6], sum[8], sum[10], sum[12] }'
+      END { printf "| blocks of `prototype-2000` | %d | %d | %d | %d | %d | |\n", sum[4], sum[6], sum[8], sum[10], sum[12] }'
   printf '\n%s; %s.\n' "$(yosys -V)" "$(nextpnr-ice40 --version 2>&1 | sed 's/^nextpnr-ice40 -- //')"
 } >"$out/RESULTS.md"
 cp "$out/RESULTS.md" RESULTS.md

@@ -3,13 +3,15 @@
 //
 //     1  the four products by constants (tables in embedded RAM, or logic)      3  second addition of G
 //     2  additions                                                              4  clamp
-module colour_conversion (
+module colour_conversion #(
+    parameter int ALPHA_BITS = 2  // of a sample: 2, or 8 from compressed images
+) (
     input  logic clk,
     input  logic rst,
 
     input  logic samples_valid,
     output logic samples_ready,
-    input  logic [board::SAMPLES_BITS-1:0] samples_data,
+    input  logic [board::YUV_BITS+ALPHA_BITS-1:0] samples_data,
 
     output logic pixels_valid,
     input  logic pixels_ready,
@@ -17,10 +19,11 @@ module colour_conversion (
 );
 `include "messages.svh"
 
-  yuva_pixel_t in;
+  localparam int REST_BITS = 4 + ALPHA_BITS;
+  yuv_pixel_t in;
   logic moves;
   logic [board::COLOUR_STAGES:1] valid;
-  assign in = samples_data;
+  assign in = samples_data[ALPHA_BITS+:board::YUV_BITS];
   assign pixels_valid = valid[board::COLOUR_STAGES];
   assign moves = !pixels_valid || pixels_ready;
   assign samples_ready = moves;
@@ -30,10 +33,10 @@ module colour_conversion (
   end
 
   // View and alpha of the pixels in stages 1 to 4.
-  logic [5:0] rest_1, rest_2, rest_3, rest_4;
+  logic [REST_BITS-1:0] rest_1, rest_2, rest_3, rest_4;
   always_ff @(posedge clk) begin
     if (moves) begin
-      rest_1 <= {in.view, in.alpha};
+      rest_1 <= {in.view, samples_data[ALPHA_BITS-1:0]};
       rest_2 <= rest_1;
       rest_3 <= rest_2;
       rest_4 <= rest_3;
@@ -74,7 +77,7 @@ module colour_conversion (
   /* verilator lint_on UNUSEDSIGNAL */
   logic is_opaque;
   logic [7:0] r_4, g_4, b_4;
-  assign is_opaque = rest_3[1:0] != 2'd0;
+  assign is_opaque = rest_3[ALPHA_BITS-1:0] != '0;
   always_ff @(posedge clk) begin
     if (moves) begin
       r_4 <= clamped(r_3, is_opaque);
@@ -84,7 +87,7 @@ module colour_conversion (
   end
 
   rgba_pixel_t pixel;
-  assign pixel.view = rest_4[5:2];
-  assign pixel.rgba = {{4{rest_4[1:0]}}, b_4, g_4, r_4};
+  assign pixel.view = rest_4[ALPHA_BITS+:4];
+  assign pixel.rgba = {{(8 / ALPHA_BITS) {rest_4[ALPHA_BITS-1:0]}}, b_4, g_4, r_4};
   assign pixels_data = pixel;
 endmodule

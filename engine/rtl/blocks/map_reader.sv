@@ -1,12 +1,14 @@
 // RS map reader (engine/model/blocks/shared/map_reader.hpp): a byte of the map is the photo of a column, 255: none. One
 // column at a time: a cycle for the request, the memory's latency, a cycle to pass it on; one cycle without a ray.
-module map_reader (
+module map_reader #(
+    parameter int WITH_DIRECTION = 0  // 1: `parallel`, whose messages end with slope and direction
+) (
     input  logic clk,
     input  logic rst,
 
     input  logic points_valid,
     output logic points_ready,
-    input  logic [board::POINTS_BITS-1:0] points_data,
+    input  logic [board::POINTS_BITS+WITH_DIRECTION*board::DIRECTION_BITS-1:0] points_data,
 
     output logic map_reads_valid,
     input  logic map_reads_ready,
@@ -18,7 +20,7 @@ module map_reader (
 
     output logic mapped_valid,
     input  logic mapped_ready,
-    output logic [board::MAPPED_BITS-1:0] mapped_data
+    output logic [board::MAPPED_BITS+WITH_DIRECTION*board::DIRECTION_BITS-1:0] mapped_data
 );
 `include "messages.svh"
 
@@ -29,7 +31,7 @@ module map_reader (
   mapped_ray_t mapped;
   logic requested;
   logic [7:0] image;
-  assign point = points_data;
+  assign point = points_data[WITH_DIRECTION*board::DIRECTION_BITS+:board::POINTS_BITS];
   assign map_reads_valid = points_valid && point.has_ray && !requested;
   assign mapped_valid = points_valid && (!point.has_ray || (requested && map_words_valid));
   assign points_ready = mapped_valid && mapped_ready;
@@ -53,5 +55,11 @@ module map_reader (
     mapped.lambda_q20 = point.lambda_q20;
     mapped.image = point.has_ray ? image[6:0] : 7'd0;
   end
-  assign mapped_data = mapped;
+  generate
+    if (WITH_DIRECTION == 0) begin : without_direction
+      assign mapped_data = mapped;
+    end else begin : with_direction
+      assign mapped_data = {mapped, points_data[board::DIRECTION_BITS-1:0]};
+    end
+  endgenerate
 endmodule

@@ -7,48 +7,27 @@
 // of the last n - 1 commands. A bank that was closed since has kept the rules of its commands before. With the times of
 // prototype-2000, a client that opens a row uses it before the row may be closed, so that the rules from ACTIVATE matter
 // in front of a window only.
-module memory_controller (
+module memory_controller #(
+    parameter int PORTS = 4,      // read ports
+    parameter int ROOM_BITS = 5,  // of the space in an answer FIFO
+    parameter int IMAGE_WRITES_DEPTH = board::IMAGE_WRITES_DEPTH
+) (
     input  logic clk,
     input  logic rst,
 
-    // Read ports in their order of service. The space in an answer FIFO is reserved before a read is accepted, so that
-    // its `ready` is not used.
-    input  logic host_reads_valid,
-    output logic host_reads_ready,
-    input  logic [board::HOST_READS_BITS-1:0] host_reads_data,
-    input  logic map_reads_valid,
-    output logic map_reads_ready,
-    input  logic [board::MAP_READS_BITS-1:0] map_reads_data,
-    input  logic line_reads_valid,
-    output logic line_reads_ready,
-    input  logic [board::LINE_READS_BITS-1:0] line_reads_data,
-    input  logic sample_reads_valid,
-    output logic sample_reads_ready,
-    input  logic [board::SAMPLE_READS_BITS-1:0] sample_reads_data,
-
-    /* verilator lint_off UNUSEDSIGNAL */
-    output logic host_words_valid,
-    input  logic host_words_ready,
-    output logic [board::HOST_WORDS_BITS-1:0] host_words_data,
-    input  logic [$clog2(board::HOST_WORDS_DEPTH+1)-1:0] host_words_room,
-    output logic map_words_valid,
-    input  logic map_words_ready,
-    output logic [board::MAP_WORDS_BITS-1:0] map_words_data,
-    input  logic [$clog2(board::MAP_WORDS_DEPTH+1)-1:0] map_words_room,
-    output logic line_words_valid,
-    input  logic line_words_ready,
-    output logic [board::LINE_WORDS_BITS-1:0] line_words_data,
-    input  logic [$clog2(board::LINE_WORDS_DEPTH+1)-1:0] line_words_room,
-    output logic sample_words_valid,
-    input  logic sample_words_ready,
-    output logic [board::SAMPLE_WORDS_BITS-1:0] sample_words_data,
-    input  logic [$clog2(board::SAMPLE_WORDS_DEPTH+1)-1:0] sample_words_room,
-    /* verilator lint_on UNUSEDSIGNAL */
+    // Read ports in their order of service, the first one in the low bits. The space in an answer FIFO is reserved before
+    // a read is accepted, so that the answers have no `ready`. All answers are on the same lines.
+    input  logic [PORTS-1:0] reads_valid,
+    output logic [PORTS-1:0] reads_ready,
+    input  logic [PORTS*board::SAMPLE_READS_BITS-1:0] reads_data,
+    output logic [PORTS-1:0] words_valid,
+    output logic [board::SAMPLE_WORDS_BITS-1:0] words_data,
+    input  logic [PORTS*ROOM_BITS-1:0] words_room,
 
     input  logic image_writes_valid,
     output logic image_writes_ready,
     input  logic [board::IMAGE_WRITES_BITS-1:0] image_writes_data,
-    input  logic [$clog2(board::IMAGE_WRITES_DEPTH+1)-1:0] image_writes_count,
+    input  logic [$clog2(IMAGE_WRITES_DEPTH+1)-1:0] image_writes_count,
     output logic view_written_valid,
     input  logic view_written_ready,
     output logic [board::VIEW_WRITTEN_BITS-1:0] view_written_data,
@@ -84,40 +63,39 @@ module memory_controller (
   localparam int COLUMN_BITS = board::SDRAM_COLUMN_BITS;
 
   //---- Arriving words -----------------------------------------------------------------------------------------------
-  // In place 0 the read of the last cycle, in place FLIGHT - 1 the one whose word is in the input register.
+  // A bit for each read port: in the low bits of `flight` the port of the read of the last cycle, in the high ones that
+  // whose word is in the input register.
   localparam int FLIGHT = board::SDRAM_READ_LATENCY + board::SDRAM_INTERFACE_LATENCY;
-  logic [FLIGHT-1:0] flight_host, flight_map, flight_line, flight_sample, flight_null;
-  logic reads_host, reads_map, reads_line, reads_sample, reads_null;  // accepted in this cycle
-  logic [63:0] read_data, arriving;
+  localparam int FLIGHT_BITS = $clog2(FLIGHT + 1);
+  logic [PORTS*FLIGHT-1:0] flight;
+  logic [FLIGHT-1:0] flight_null;
+  logic [PORTS-1:0] accepts, delivers;
+  logic reads_null;
+  logic [63:0] read_data;
+  assign delivers = flight[PORTS*(FLIGHT-1)+:PORTS];
   always_ff @(posedge clk) begin
-    if (rst) begin
-      flight_host <= '0;
-      flight_map <= '0;
-      flight_line <= '0;
-      flight_sample <= '0;
-    end else begin
-      flight_host <= {flight_host[FLIGHT-2:0], reads_host};
-      flight_map <= {flight_map[FLIGHT-2:0], reads_map};
-      flight_line <= {flight_line[FLIGHT-2:0], reads_line};
-      flight_sample <= {flight_sample[FLIGHT-2:0], reads_sample};
-    end
+    if (rst) flight <= '0;
+    else flight <= {flight[PORTS*(FLIGHT-1)-1:0], accepts};
     flight_null <= {flight_null[FLIGHT-2:0], reads_null};
     read_data <= sdram_read_data;
   end
-  assign arriving = flight_null[FLIGHT-1] ? 64'd0 : read_data;
-  assign host_words_valid = flight_host[FLIGHT-1];
-  assign map_words_valid = flight_map[FLIGHT-1];
-  assign line_words_valid = flight_line[FLIGHT-1];
-  assign sample_words_valid = flight_sample[FLIGHT-1];
-  assign host_words_data = arriving;
-  assign map_words_data = arriving;
-  assign line_words_data = arriving;
-  assign sample_words_data = arriving;
+  assign words_valid = delivers;
+  assign words_data = flight_null[FLIGHT-1] ? 64'd0 : read_data;
 
-  function automatic logic [4:0] outstanding(input logic [FLIGHT-1:0] flight);
-    outstanding = 5'd0;
-    for (int n = 0; n < FLIGHT; n = n + 1) outstanding = outstanding + {4'd0, flight[n]};
-  endfunction
+  // Words of each port on their way. Counted, because to add up the bits of `flight` would be in front of the choice.
+  logic [PORTS*FLIGHT_BITS-1:0] outstanding;
+  genvar port;
+  generate
+    for (port = 0; port < PORTS; port = port + 1) begin : ports
+      logic [FLIGHT_BITS-1:0] without, with_read;
+      assign without = outstanding[FLIGHT_BITS*port+:FLIGHT_BITS] - FLIGHT_BITS'(delivers[port]);
+      assign with_read = without + FLIGHT_BITS'(1);
+      always_ff @(posedge clk) begin
+        if (rst) outstanding[FLIGHT_BITS*port+:FLIGHT_BITS] <= '0;
+        else outstanding[FLIGHT_BITS*port+:FLIGHT_BITS] <= accepts[port] ? with_read : without;
+      end
+    end
+  endgenerate
 
   //---- Maintenance window -------------------------------------------------------------------------------------------
   localparam logic [1:0] SERVING = 2'd0;
@@ -137,53 +115,50 @@ module memory_controller (
   logic in_window, closes_all, refreshes, activates_load, loads, closes_load;
 
   //---- Client: a batch of image writes, the read ports in order, other image writes -----------------------------------
-  localparam logic [2:0] HOST = 3'd0;
-  localparam logic [2:0] MAP = 3'd1;
-  localparam logic [2:0] LINE = 3'd2;
-  localparam logic [2:0] SAMPLE = 3'd3;
-  localparam logic [2:0] IMAGE = 3'd4;
-  localparam logic [2:0] NO_CLIENT = 3'd5;
   localparam int BATCH_BITS = $clog2(board::WRITE_BATCH + 1);
   localparam logic [BATCH_BITS-1:0] FULL_BATCH = BATCH_BITS'(board::WRITE_BATCH);
-  localparam int COUNT_BITS = $clog2(board::IMAGE_WRITES_DEPTH + 1);
+  localparam int COUNT_BITS = $clog2(IMAGE_WRITES_DEPTH + 1);
   localparam logic [COUNT_BITS-1:0] BATCH_COUNT = COUNT_BITS'(board::WRITE_BATCH);
-  logic [2:0] chosen, port, client;  // `chosen`: keeps the port until its word is transferred
-  logic [BATCH_BITS-1:0] batch_left, batch_before, batch;
-  logic is_full_batch;
+  // A client keeps the port until its word is transferred: `is_chosen`, and `chosen`, a bit for each client. Image
+  // writes are the client behind the read ports.
+  logic is_chosen;
+  logic [PORTS:0] chosen, first, client;
+  logic [PORTS-1:0] may_ask;
+  logic [BATCH_BITS-1:0] batch_left, batch;
+  logic is_full_batch, continues_batch, writes_first, is_image;
   assign is_full_batch = image_writes_count >= BATCH_COUNT;
-  assign port = host_reads_valid && 5'(host_words_room) > outstanding(flight_host) ? HOST :
-                map_reads_valid && 5'(map_words_room) > outstanding(flight_map) ? MAP :
-                line_reads_valid && 5'(line_words_room) > outstanding(flight_line) ? LINE :
-                sample_reads_valid && sample_words_room > outstanding(flight_sample) ? SAMPLE : NO_CLIENT;
-  assign batch_before = batch_left == '0 && is_full_batch ? FULL_BATCH : batch_left;
-  always_comb begin
-    client = chosen;
-    batch = batch_left;
-    if (chosen == NO_CLIENT) begin
-      if (batch_before != '0 && image_writes_valid) begin
-        client = IMAGE;
-        batch = batch_before;
-      end else if (port != NO_CLIENT) begin
-        client = port;
-        batch = '0;
-      end else if (image_writes_valid) begin
-        client = IMAGE;
-        batch = is_full_batch ? FULL_BATCH : BATCH_BITS'(image_writes_count);
-      end else begin
-        batch = '0;
-      end
+  assign continues_batch = image_writes_valid && (is_full_batch || batch_left != '0);
+  generate
+    for (port = 0; port < PORTS; port = port + 1) begin : choice
+      localparam logic [PORTS-1:0] BEFORE = PORTS'((1 << port) - 1);
+      assign may_ask[port] = reads_valid[port] &&
+          words_room[ROOM_BITS*port+:ROOM_BITS] > ROOM_BITS'(outstanding[FLIGHT_BITS*port+:FLIGHT_BITS]);
+      assign first[port] = !continues_batch && may_ask[port] && (may_ask & BEFORE) == '0;
     end
+  endgenerate
+  assign writes_first = image_writes_valid && (continues_batch || may_ask == '0);
+  assign first[PORTS] = writes_first;
+  assign client = is_chosen ? chosen : first;
+  assign is_image = client[PORTS];
+  always_comb begin
+    if (is_chosen) batch = batch_left;
+    else if (!writes_first) batch = '0;
+    else if (batch_left != '0) batch = batch_left;
+    else batch = is_full_batch ? FULL_BATCH : BATCH_BITS'(image_writes_count);
   end
 
   memory_read_t read;
   memory_write_t image_write, load;
   assign image_write = image_writes_data;
   assign load = load_words_data;
-  assign read = client == HOST ? host_reads_data : client == MAP ? map_reads_data :
-                client == LINE ? line_reads_data : sample_reads_data;
-  logic serves_read, serves_image;
-  assign serves_read = !in_window && client[2] == 1'b0;
-  assign serves_image = !in_window && client == IMAGE;
+  logic [board::SAMPLE_READS_BITS-1:0] selected;
+  always_comb begin
+    selected = '0;
+    for (int n = 0; n < PORTS; n = n + 1) begin
+      if (client[n]) selected = selected | reads_data[board::SAMPLE_READS_BITS*n+:board::SAMPLE_READS_BITS];
+    end
+  end
+  assign read = selected;
 
   //---- Banks and timing rules ---------------------------------------------------------------------------------------
   localparam int HISTORY = 3;
@@ -201,19 +176,31 @@ module memory_controller (
     end
   endfunction
 
-  logic [BANKS-1:0] is_open;
-  logic [ROW_BITS-1:0] open_rows[0:BANKS-1];
-  logic [26:0] address;
+  logic [BANKS-1:0] is_open, is_bank, has_rows;
+  logic [ROW_BITS*BANKS-1:0] open_rows;  // of closed banks: any
+  logic [26:0] address;  // of the client
   logic [BANK_BITS-1:0] bank;
   logic [ROW_BITS-1:0] row;
-  assign address = in_window ? load.address : client == IMAGE ? image_write.address : read.address;
+  logic is_open_bank;
+  genvar number;
+  assign address = read.address | (is_image ? image_write.address : '0);
   assign bank = address[COLUMN_BITS+ROW_BITS+:BANK_BITS];
   assign row = address[COLUMN_BITS+:ROW_BITS];
+  generate
+    for (number = 0; number < BANKS; number = number + 1) begin : banks
+      assign is_bank[number] = bank == BANK_BITS'(number);
+      assign has_rows[number] = open_rows[ROW_BITS*number+:ROW_BITS] == row;
+      always_ff @(posedge clk) begin
+        if (is_bank[number] && !is_open[number]) open_rows[ROW_BITS*number+:ROW_BITS] <= row;  // may be activated in this cycle
+      end
+    end
+  endgenerate
+  assign is_open_bank = (is_open & is_bank) != '0;
 
   logic may_any, has_row, may_activate, may_read, may_write, may_precharge, may_precharge_all, may_refresh;
   assign may_any = !recent(REFRESH, board::SDRAM_REFRESH_TO_ANY - 1, past_commands);
-  assign has_row = is_open[bank] && open_rows[bank] == row;
-  assign may_activate = may_any && !is_open[bank] &&
+  assign has_row = (is_open & is_bank & has_rows) != '0;
+  assign may_activate = may_any && !is_open_bank &&
       !recent_in(ACTIVATE, board::SDRAM_ACTIVATE_TO_ACTIVATE - 1, bank, past_commands, past_banks) &&
       !recent_in(PRECHARGE, board::SDRAM_PRECHARGE_TO_ACTIVATE - 1, bank, past_commands, past_banks) &&
       !recent(PRECHARGE_ALL, board::SDRAM_PRECHARGE_TO_ACTIVATE - 1, past_commands);
@@ -232,41 +219,34 @@ module memory_controller (
       !recent(PRECHARGE_ALL, board::SDRAM_PRECHARGE_TO_ACTIVATE - 1, past_commands);
 
   //---- Command of this cycle ----------------------------------------------------------------------------------------
-  logic closing, load_time, writes_image, read_done;
+  logic closing, load_time, writes_image, reads, activates, precharges;
   assign closing = state == CLOSING || (state == SERVING && to_window == '0);
   assign in_window = state != SERVING || closing;
   assign closes_all = closing && may_precharge_all;
   assign refreshes = state == REFRESHING && may_refresh;
+
+  // All rows are closed then, and the times are kept by the places in the window.
+  logic [BANK_BITS+ROW_BITS-1:0] load_row;
   assign load_time = state == LOADING && at >= AT_BITS'(FIRST_WORD) && at < AT_BITS'(END_OF_WORDS);
   assign activates_load = state == LOADING && at == AT_BITS'(board::SDRAM_REFRESH_TO_ANY) && load_words_valid;
-  assign loads = load_time && load_row_open && load_words_valid && may_write && (!load.last || object_loaded_ready);
+  assign loads = load_time && load_row_open && load_words_valid && load.address[26:COLUMN_BITS] == load_row &&
+      (!load.last || object_loaded_ready);
   assign closes_load = state == LOADING && at == AT_BITS'(CLOSES) && load_row_open;
-  assign writes_image = serves_image && may_write && (!image_write.last || view_written_ready);
-  assign read_done = serves_read && (read.is_null || may_read);
 
-  logic [2:0] command;
-  always_comb begin
-    command = NONE;
-    if (closes_all || closes_load) command = PRECHARGE_ALL;
-    else if (refreshes) command = REFRESH;
-    else if (activates_load) command = ACTIVATE;
-    else if (loads || writes_image) command = WRITE;
-    else if (read_done) command = read.is_null ? NONE : READ;
-    else if ((serves_image || serves_read) && !has_row) begin
-      if (is_open[bank] && may_precharge) command = PRECHARGE;
-      if (may_activate) command = ACTIVATE;
-    end
-  end
+  assign writes_image = !in_window && is_image && may_write && (!image_write.last || view_written_ready);
+  assign reads = !in_window && may_read && !read.is_null && client[PORTS-1:0] != '0;
+  assign reads_null = !in_window && read.is_null;
+  assign accepts = reads || reads_null ? client[PORTS-1:0] : '0;
+  assign activates = !in_window && client != '0 && !reads_null && may_activate;
+  assign precharges = !in_window && client != '0 && !reads_null && is_open_bank && !has_row && may_precharge;
 
-  assign host_reads_ready = read_done && client == HOST;
-  assign map_reads_ready = read_done && client == MAP;
-  assign line_reads_ready = read_done && client == LINE;
-  assign sample_reads_ready = read_done && client == SAMPLE;
-  assign reads_host = host_reads_ready;
-  assign reads_map = map_reads_ready;
-  assign reads_line = line_reads_ready;
-  assign reads_sample = sample_reads_ready;
-  assign reads_null = read.is_null;
+  logic [2:0] window_command, command;
+  assign window_command = closes_all || closes_load ? PRECHARGE_ALL : refreshes ? REFRESH :
+                          activates_load ? ACTIVATE : loads ? WRITE : NONE;
+  assign command = window_command | (writes_image ? WRITE : NONE) | (reads ? READ : NONE) |
+                   (activates ? ACTIVATE : NONE) | (precharges ? PRECHARGE : NONE);
+
+  assign reads_ready = accepts;
   assign image_writes_ready = writes_image;
   assign load_words_ready = loads;
   assign view_written_valid = writes_image && image_write.last;
@@ -278,7 +258,7 @@ module memory_controller (
     if (rst) begin
       state <= SERVING;
       to_window <= INTERVAL_BITS'(board::MAINTENANCE_INTERVAL);
-      chosen <= NO_CLIENT;
+      is_chosen <= 1'b0;
       batch_left <= '0;
       is_open <= '0;
       past_commands <= '0;
@@ -289,24 +269,23 @@ module memory_controller (
       if (refreshes) state <= LOADING;
       if (state == LOADING && at == AT_BITS'(LAST)) state <= SERVING;
       if (!in_window) begin
-        chosen <= writes_image || read_done ? NO_CLIENT : client;
+        is_chosen <= client != '0 && !(writes_image || reads || reads_null);
         batch_left <= writes_image ? batch - BATCH_BITS'(1) : batch;
       end
-      if (command == ACTIVATE) is_open[bank] <= 1'b1;
-      if (command == PRECHARGE) is_open[bank] <= 1'b0;
-      if (command == PRECHARGE_ALL) is_open <= '0;
+      is_open <= closes_all ? '0 : (is_open | (activates ? is_bank : '0)) & ~(precharges ? is_bank : '0);
       past_commands <= {past_commands[3*(HISTORY-1)-1:0], command};
       sdram_command <= command;
     end
 
+    if (!in_window) chosen <= client;
     at <= refreshes ? AT_BITS'(1) : at + AT_BITS'(1);
     if (refreshes) load_row_open <= 1'b0;
-    if (activates_load) load_row_open <= 1'b1;
-    if (command == ACTIVATE) open_rows[bank] <= row;
+    if (activates_load) begin
+      load_row_open <= 1'b1;
+      load_row <= load.address[26:COLUMN_BITS];
+    end
     past_banks <= {past_banks[BANK_BITS*(HISTORY-1)-1:0], bank};
-    sdram_bank <= bank;
-    sdram_row <= row;
-    sdram_column <= address[COLUMN_BITS-1:0];
+    {sdram_bank, sdram_row, sdram_column} <= in_window ? load.address : address;
     sdram_write_data <= in_window ? load.data : image_write.data;
   end
 endmodule

@@ -2,7 +2,13 @@
 // that it sees most squarely. A cycle to take the view; then for each column a cycle per plane, in which its N and T are
 // read, compared and incremented, and one cycle to put the column out. In the first column N and T come from the
 // register file, then from the accumulators.
-module raster_generator (
+//
+// A pipe of `parallel` puts out its own columns alone: stripes of 16, of the pipes in turn. The number of pipes must be a
+// power of two.
+module raster_generator #(
+    parameter int PIPES = 1,
+    parameter int PIPE = 0
+) (
     input  logic clk,
     input  logic rst,
 
@@ -35,7 +41,12 @@ module raster_generator (
   logic scans;
   assign scans = scanned != object_planes;
   assign jobs_ready = !active;
-  assign columns_valid = active && !scans;
+  logic owns, ends_column;
+  assign owns = (board::VIEW_SIDE_BITS'(column[board::VIEW_SIDE_BITS-1:4]) +
+                 board::VIEW_SIDE_BITS'(board::STRIPE_TURN) * board::VIEW_SIDE_BITS'(view)) %
+                board::VIEW_SIDE_BITS'(PIPES) == board::VIEW_SIDE_BITS'(PIPE);
+  assign columns_valid = active && !scans && owns;
+  assign ends_column = !scans && (columns_ready || !owns);
 
   // Accumulators, read and written in the same cycle.
   logic [35:0] n_sums[0:board::PLANES-1];
@@ -59,7 +70,7 @@ module raster_generator (
       active <= 1'b0;
     end else if (!active) begin
       active <= jobs_valid;
-    end else if (columns_valid && columns_ready && column + 1'b1 == view_width) begin
+    end else if (ends_column && column + 1'b1 == view_width) begin
       active <= 1'b0;
     end
 
@@ -76,7 +87,7 @@ module raster_generator (
         smallest_q28 <= n_q28;
         best_t_q28 <= t_q32[35:4];
       end
-    end else if (columns_ready) begin
+    end else if (ends_column) begin
       scanned <= '0;
       column <= column + 1'b1;
     end

@@ -8,7 +8,9 @@
 //                                                        64      clamp xi, ui
 //                                                        65..73  (k * x_cells + xi) * u_cells
 //                                                        74      + ui + the map's address;  75  output
-module ray_position (
+module ray_position #(
+    parameter int WITH_DIRECTION = 0  // 1: `parallel`, whose points end with slope u and direction N, T
+) (
     input  logic clk,
     input  logic rst,
 
@@ -18,7 +20,7 @@ module ray_position (
 
     output logic points_valid,
     input  logic points_ready,
-    output logic [board::POINTS_BITS-1:0] points_data,
+    output logic [board::POINTS_BITS+WITH_DIRECTION*board::DIRECTION_BITS-1:0] points_data,
 
     // Register file: the object of `view`, and its plane.
     output logic [board::VIEW_BITS-1:0] view,
@@ -163,5 +165,11 @@ module ray_position (
       point.cell_byte = cell_byte;
     end
   end
-  assign points_data = point;
+  generate
+    if (WITH_DIRECTION == 0) begin : without_direction
+      assign points_data = point;
+    end else begin : with_direction
+      assign points_data = {point, point.has_ray ? {u_q28[29:0], ray.n_q28, ray.t_q28} : 93'd0};
+    end
+  endgenerate
 endmodule

@@ -38,7 +38,7 @@ module record_reader (
   requested_record_t record;
   logic is_loaded;  // the word of the new tile has been taken
   logic [63:0] word, head;
-  logic [26:0] tile_address, next;
+  logic [26:0] records, last;  // address of the tile's records, and of the last request
   logic [1:0] to_request;  // words
   assign tile = tiles_data;
   assign request = tile.request;
@@ -67,21 +67,33 @@ module record_reader (
   assign class_number = head[{2'b0, block} * 6'd3+:3];
   assign is_predicted_image = head[55:48] != 8'd255;
   assign sizes = is_predicted_image ? object_predicted_sizes : object_record_sizes;
-  always_comb begin
-    offset = 8'd0;
-    for (int n = 0; n < 15; n = n + 1) begin
-      if (4'(n) < block) offset = offset + {4'd0, size_of(head[3*n+:3], sizes)};
+  // A tree of adders: four levels.
+  logic [63:0] addends;  // of 4 bits: the sizes of the blocks before it
+  logic [39:0] pairs;    // of 5 bits
+  logic [23:0] fours;    // of 6 bits
+  genvar n;
+  generate
+    for (n = 0; n < 15; n = n + 1) begin : blocks
+      assign addends[4*n+:4] = 4'(n) < block ? size_of(head[3*n+:3], sizes) : 4'd0;
     end
-  end
+    for (n = 0; n < 8; n = n + 1) begin : sums_of_pairs
+      assign pairs[5*n+:5] = {1'b0, addends[8*n+:4]} + {1'b0, addends[8*n+4+:4]};
+    end
+    for (n = 0; n < 4; n = n + 1) begin : sums_of_fours
+      assign fours[6*n+:6] = {1'b0, pairs[10*n+:5]} + {1'b0, pairs[10*n+5+:5]};
+    end
+  endgenerate
+  assign addends[63:60] = 4'd0;
+  assign offset = {1'b0, {1'b0, fours[5:0]} + {1'b0, fours[11:6]}} + {1'b0, {1'b0, fours[17:12]} + {1'b0, fours[23:18]}};
   assign end_in_word = {3'd0, offset[1:0]} + {1'b0, size_of(class_number, sizes)} + 5'd3;
   assign words = end_in_word[4:2];
 
   logic reads_first;
   logic [26:0] first;
   assign reads_first = sends && class_number != 3'd0;
-  assign first = tile_address + 27'd1 + {21'd0, offset[7:2]};
+  assign first = records + {21'd0, offset[7:2]};
   assign record_reads_valid = to_request != 2'd0 || (may_send && asked_records_ready && class_number != 3'd0);
-  assign read.address = to_request != 2'd0 ? next : first;
+  assign read.address = to_request != 2'd0 ? last + 27'd1 : first;
   assign read.is_null = 1'b0;
   assign record_reads_data = read;
 
@@ -98,12 +110,11 @@ module record_reader (
 
     if (takes_word) begin
       word <= tile_words_data;
-      tile_address <= tile.address;
+      records <= tile.address + 27'd1;
     end else if (sends) begin
       word <= head;
     end
-    if (reads_first) next <= first + 27'd1;
-    else if (record_reads_ready) next <= next + 27'd1;
+    if (record_reads_ready) last <= read.address;
   end
 
   always_comb begin

@@ -19,7 +19,7 @@ module sample_select (
 `include "messages.svh"
 
   sample_tag_t tag;
-  yuva_pixel_t sample;
+  yuv_pixel_t sample;
   logic is_alpha, is_luma, may_move, moves;
   assign tag = tags_data;
   assign is_alpha = tag.kind == 2'(board::TAG_ALPHA);
@@ -62,6 +62,5 @@ module sample_select (
   assign sample.y = luma;
   assign sample.u = u;
   assign sample.v = v;
-  assign sample.alpha = tag.pixel ? level_1 : level_0;
-  assign samples_data = sample;
+  assign samples_data = {sample, tag.pixel ? level_1 : level_0};
 endmodule

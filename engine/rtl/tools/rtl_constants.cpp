@@ -3,6 +3,8 @@
 // the model, so that RTL and model cannot differ in them.
 
 #include "engine/model/board_top.hpp"
+#include "engine/model/limits/parallel_layout.hpp"
+#include "rayspace/codec/dense_tile.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <bit>
@@ -39,6 +41,10 @@ int bits_of(int largest) {
     return static_cast<int>(std::bit_width(static_cast<unsigned>(largest)));
 }
 
+void add_group(PackageText& package, const FifoGroup& group) {
+    for (const FifoState* fifo : group.fifos()) package.add_fifo(fifo->name(), fifo->depth(), fifo->width_bits());
+}
+
 void add_fifos(PackageText& package, const BoardTop& top) {
     for (const Domain domain : {Domain::board, Domain::pci}) {
         const Simulator::DomainParts& parts = top.simulator.parts(domain);
@@ -70,17 +76,50 @@ void add_tags(PackageText& package) {
     package.add("tag_luma", static_cast<int>(SampleTag::Kind::luma));
 }
 
-// Messages of block decompression, which prototype-2000 lacks.
-void add_coded_messages(PackageText& package) {
+// Block decompression, which prototype-2000 lacks: its FIFOs, of which those of hop N end in _N, and its messages.
+void add_block_decompression(PackageText& package) {
+    const RegisterFile no_registers;
+    const RecordChains chains(no_registers);
+    for (const auto& hop : chains.hop_fifos) add_group(package, *hop);
+    add_group(package, chains);
     package.add("asks_bits", BlockRequest::kBits);
     package.add("found_bits", FoundTile::kBits);
     package.add("tiles_bits", RequestedTile::kBits);
     package.add("asked_records_bits", RequestedRecord::kBits);
+    package.add("records_bits", BlockRecord::kBits);
     package.add("coded_pixels_bits", CodedPixel::bits(0));
+    package.add("coded_colour_bits", CodedPixel::kColourBits);
+    package.add("hop_lookup_bits", HopLookup::kBits);
+    package.add("yuv_bits", YuvaPixel::kBits - 2);
+    package.add("alpha_none", static_cast<int>(CodedPixel::Alpha::none));
+    package.add("alpha_full", static_cast<int>(CodedPixel::Alpha::full));
+    package.add("alpha_book", static_cast<int>(CodedPixel::Alpha::book));
+    package.add("empty_sample", codec::kEmptySample);
+    package.add("book_stages", BookLookup::kStages);
     package.add("tile_same", static_cast<int>(RequestedTile::Kind::same));
     package.add("tile_nothing", static_cast<int>(RequestedTile::Kind::nothing));
     package.add("tile_read", static_cast<int>(RequestedTile::Kind::read));
     package.add("run_pixels", BlockScan::kMaxPixels);
+}
+
+// Messages and limits of the blocks of `parallel`.
+void add_parallel_blocks(PackageText& package) {
+    package.add("direction_bits", RayPoint::kBitsWithDirection - RayPoint::kBits);
+    package.add("fills_bits", TexelFill::kBits);
+    package.add("targets_bits", FillTarget::kBits);
+    package.add("kinds_bits", FillKind::kBits);
+    package.add("quads_bits", TexelQuad::kBits);
+    package.add("filtered_bits", FilteredSample::kBits);
+    package.add("patches_bits", PatchJob::kBits);
+    package.add("scanned_bits", ScannedPixel::kBits);
+    package.add("resolved_bits", FinishedPixel::kBits);
+    package.add("empty_bits", FinishedPixel::kBitsOfEmpty);
+    package.add("again_bits", ReturnedPixel::kBits);
+    package.add("surface_blend_stages", SurfaceBlend::kStages);
+    package.add("covering_alpha", kCoveringAlpha);
+    package.add("texel_filter_stages", TexelFilter::kStages);
+    package.add("raw_block_words", kRawBlockWords);
+    package.add("stripe_turn", kStripeTurn);
 }
 
 void add_limits(PackageText& package, const BoardLimits& limits) {
@@ -148,7 +187,8 @@ Status write_constants(const std::string& config_name, const std::string& path) 
     add_fifos(package, top);
     add_latencies(package);
     add_tags(package);
-    add_coded_messages(package);
+    add_block_decompression(package);
+    add_parallel_blocks(package);
     add_limits(package, config.limits);
     add_memory(package, config.memory, top.registers);
     add_buses(package, config);

@@ -16,9 +16,9 @@
 
 namespace rs::engine::rtl {
 
-/// Value of a port of at most 384 bits, in words of 32 bits, the lowest first.
+/// Value of a port of at most 512 bits, in words of 32 bits, the lowest first.
 struct Bits {
-    static constexpr int kWords = 12;
+    static constexpr int kWords = 16;
     std::array<std::uint32_t, kWords> words{};
     bool operator==(const Bits&) const = default;
 };
@@ -71,25 +71,26 @@ inline Bits pack(const model::ColumnRay& m) {
         .put(m.t_q28, 32)
         .bits();
 }
-inline Bits pack(const model::RayPoint& m) {
-    return BitsWriter(m.kBits)
-        .put(m.view, 4)
-        .put(m.has_ray, 1)
-        .put(m.plane, 4)
-        .put(m.x_q20, 23)
-        .put(m.lambda_q20, 29)
-        .put(static_cast<std::int64_t>(m.cell_byte), 30)
-        .bits();
+// With slope and direction where the width has them.
+template <class Ray>
+Bits with_direction(BitsWriter& writer, const Ray& m, int width_bits) {
+    if (width_bits == m.kBitsWithDirection) writer.put(m.u_q28, 30).put(m.n_q28, 31).put(m.t_q28, 32);
+    return writer.bits();
 }
-inline Bits pack(const model::MappedRay& m) {
-    return BitsWriter(m.kBits)
-        .put(m.view, 4)
+inline Bits pack(const model::RayPoint& m, int width_bits) {
+    BitsWriter writer(width_bits);
+    writer.put(m.view, 4)
         .put(m.has_ray, 1)
         .put(m.plane, 4)
         .put(m.x_q20, 23)
         .put(m.lambda_q20, 29)
-        .put(m.image, 7)
-        .bits();
+        .put(static_cast<std::int64_t>(m.cell_byte), 30);
+    return with_direction(writer, m, width_bits);
+}
+inline Bits pack(const model::MappedRay& m, int width_bits) {
+    BitsWriter writer(width_bits);
+    writer.put(m.view, 4).put(m.has_ray, 1).put(m.plane, 4).put(m.x_q20, 23).put(m.lambda_q20, 29).put(m.image, 7);
+    return with_direction(writer, m, width_bits);
 }
 inline Bits pack(const model::RayLine& m) {
     BitsWriter writer(m.kBits);
@@ -148,9 +149,11 @@ inline Bits pack(const model::SampleTag& m) {
     for (const int n : {0, 1}) writer.put(m.has_alpha[n], 1).put(m.lane[n], 5);
     return writer.bits();
 }
-// The level of alpha, of which the model holds 85 times.
-inline Bits pack(const model::YuvaPixel& m) {
-    return BitsWriter(m.kBits).put(m.view, 4).put(m.y, 8).put(m.u, 8).put(m.v, 8).put(m.alpha / 85, 2).bits();
+// With the level of alpha, of which the model holds 85 times, or with alpha of 8 bits.
+inline Bits pack(const model::YuvaPixel& m, int width_bits) {
+    BitsWriter writer(width_bits);
+    writer.put(m.view, 4).put(m.y, 8).put(m.u, 8).put(m.v, 8);
+    return width_bits == m.kBits ? writer.put(m.alpha / 85, 2).bits() : writer.put(m.alpha, 8).bits();
 }
 inline Bits pack(const model::RgbaPixel& m) {
     return BitsWriter(m.kBits).put(m.view, 4).put(m.rgba, 32).bits();
@@ -198,17 +201,41 @@ inline Bits pack(const model::RequestedRecord& m) {
         .put(m.words, 3)
         .bits();
 }
-// Before hop 0.
-inline Bits pack(const model::CodedPixel& m) {
-    RS_CHECK(m.hops == 0);
-    return BitsWriter(model::CodedPixel::bits(0))
-        .put(m.view, 4)
-        .put(m.is_visible, 1)
-        .put(m.begins, 1)
-        .put(m.pending, 1)
-        .put(m.row, 9)
-        .put(m.column, 3)
-        .bits();
+// The bytes of an array, that of index 0 in the low bits.
+template <class Bytes>
+BitsWriter& put_bytes(BitsWriter& writer, const Bytes& bytes) {
+    for (std::size_t n = bytes.size(); n-- > 0;) writer.put(bytes[n], 8);
+    return writer;
+}
+inline std::uint8_t class_byte(const codec::RecordClass& record) {
+    return static_cast<std::uint8_t>((record.quarter_stages << 4) | (record.block_stages << 2) |
+                                     (static_cast<int>(record.alpha) << 1) | static_cast<int>(record.predicted));
+}
+inline Bits pack(const model::BlockRecord& m) {
+    BitsWriter writer(m.kBits);
+    writer.put(m.block_row, 6)
+        .put(m.empty, 1)
+        .put(class_byte(m.record_class), 8)
+        .put(m.motion_y, 7)
+        .put(m.reference_column, 3);
+    put_bytes(writer, m.flat);
+    put_bytes(writer, m.block);
+    for (std::size_t stage = m.quarter.size(); stage-- > 0;) put_bytes(writer, m.quarter[stage]);
+    return put_bytes(writer, m.alpha).bits();
+}
+// With as many look-ups as the width has; those of hops that the pixel has not passed are 0.
+inline Bits pack(const model::CodedPixel& m, int width_bits) {
+    BitsWriter writer(width_bits);
+    writer.put(m.view, 4).put(m.is_visible, 1).put(m.begins, 1).put(m.pending, 1).put(m.row, 9).put(m.column, 3);
+    if (width_bits == model::CodedPixel::bits(0)) return writer.bits();
+    put_bytes(writer, m.flat).put(static_cast<int>(m.alpha), 2).put(m.alpha_entry, 8);
+    for (int n = 0; model::CodedPixel::bits(n) < width_bits; ++n) {
+        const model::HopLookup& hop = m.hop[static_cast<std::size_t>(n)];
+        writer.put(hop.predicted, 1).put(hop.block_stages, 2).put(hop.quarter_stages, 3);
+        put_bytes(writer, hop.block);
+        put_bytes(writer, hop.quarter).put(hop.x, 3).put(hop.y, 3);
+    }
+    return writer.bits();
 }
 
 /// Writes the low `width_bits` bits to a port.

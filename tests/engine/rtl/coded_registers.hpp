@@ -53,4 +53,31 @@ inline std::uint32_t record_sizes(const std::array<codec::RecordClass, codec::kB
     return sizes;
 }
 
+/// The registers with the classes of records, class 0 in the low byte.
+inline std::uint64_t class_bytes(const std::array<codec::RecordClass, codec::kBoardClasses>& classes) {
+    std::uint64_t bytes = 0;
+    for (std::size_t n = classes.size(); n-- > 0;) bytes = bytes << 8U | class_byte(classes[n]);
+    return bytes;
+}
+
+/// Look-up of a predicted hop, whose unused stages are not 0.
+inline model::HopLookup random_lookup(Random& random) {
+    model::HopLookup hop;
+    hop.predicted = true;
+    hop.block_stages = static_cast<int>(random.in(0, codec::kMaxBlockStages));
+    hop.quarter_stages = static_cast<int>(random.in(0, codec::kMaxQuarterStages));
+    for (std::uint8_t& entry : hop.block) entry = static_cast<std::uint8_t>(random.word());
+    for (std::uint8_t& entry : hop.quarter) entry = static_cast<std::uint8_t>(random.word());
+    hop.x = static_cast<int>(random.in(0, 7));
+    hop.y = static_cast<int>(random.in(0, 7));
+    return hop;
+}
+
+/// Colour and alpha of a pixel behind hop 0.
+inline void random_colour(model::CodedPixel& pixel, Random& random) {
+    for (std::uint8_t& sample : pixel.flat) sample = static_cast<std::uint8_t>(random.word());
+    pixel.alpha = static_cast<model::CodedPixel::Alpha>(random.in(0, 2));
+    pixel.alpha_entry = static_cast<std::uint8_t>(random.word());
+}
+
 }  // namespace rs::engine::rtl

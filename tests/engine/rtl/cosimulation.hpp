@@ -8,9 +8,11 @@
 
 #include "engine/model/clock/block.hpp"
 #include "tests/engine/rtl/bits.hpp"
+#include "tests/engine/rtl/parallel_bits.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -20,6 +22,12 @@
 #include <vector>
 
 namespace rs::engine::rtl {
+
+/// A message of a FIFO of `width_bits`. Most messages have one width.
+template <class T>
+Bits pack(const T& message, int /*width_bits*/) {
+    return pack(message);
+}
 
 /// Random numbers of a test.
 class Random {
@@ -73,7 +81,8 @@ public:
 // A random value on the data lines of an empty FIFO: the module must not depend on it.
 inline Bits random_bits(Random& random) {
     Bits bits;
-    for (std::uint32_t& word : bits.words) word = static_cast<std::uint32_t>(random.word());
+    constexpr std::size_t kMessageWords = 12;
+    for (std::size_t n = 0; n < kMessageWords; ++n) bits.words[n] = static_cast<std::uint32_t>(random.word());
     return bits;
 }
 
@@ -107,7 +116,8 @@ public:
     }
     void drive(Random& random) override {
         valid_ = fifo_.can_pop();
-        write_port(data_, valid_ != 0 ? pack(fifo_.front()) : random_bits(random), fifo_.width_bits());
+        write_port(data_, valid_ != 0 ? pack(fifo_.front(), fifo_.width_bits()) : random_bits(random),
+                   fifo_.width_bits());
         before_ = fifo_.count();
     }
     void sample() override { rtl_popped_ = valid_ != 0 && ready_ != 0; }
@@ -175,8 +185,9 @@ private:
         const Sent sent = sent_.front();
         sent_.pop_front();
         if (taken_) taken_(message);
-        if (pack(message) == sent.data) return {};
-        return fifo_.name() + ": the model pushes " + text(pack(message)) + " (" + text(message) + "), the RTL " +
+        const Bits expected = pack(message, fifo_.width_bits());
+        if (expected == sent.data) return {};
+        return fifo_.name() + ": the model pushes " + text(expected) + " (" + text(message) + "), the RTL " +
                text(sent.data) + " in cycle " + std::to_string(sent.cycle);
     }
 
@@ -195,10 +206,14 @@ private:
 // Ports NAME_valid, NAME_ready and NAME_data of a module.
 #define RS_RTL_PORTS(module, name) (module).name##_valid, (module).name##_ready, (module).name##_data
 
+inline constexpr std::int64_t kUsualEpisode = 4000;
+
 /// Base of the benches: connects a module to the model's FIFOs.
 template <class Module>
 class Bench {
 public:
+    static constexpr std::int64_t kLongestEpisode = kUsualEpisode;  // cycles between resets
+
     Bench(Module& module, Random& random) : module_(module), random_(random) {}
     virtual ~Bench() = default;
     Bench(const Bench&) = delete;
@@ -278,8 +293,8 @@ private:
     std::vector<std::unique_ptr<Channel>> channels_;
 };
 
-/// Co-simulates for `cycles` cycles in episodes of random length. `select` is called with the new module: it chooses a
-/// mutant. Returns the first difference, or "".
+/// Co-simulates for `cycles` cycles in episodes of random length; benches of long episodes for as many of them.
+/// `select` is called with the new module: it chooses a mutant. Returns the first difference, or "".
 template <template <class> class BenchOf, class Module, class Select>
 std::string cosimulate(std::uint64_t cycles, std::uint64_t seed, Select&& select) {
     Random random(seed);
@@ -288,8 +303,9 @@ std::string cosimulate(std::uint64_t cycles, std::uint64_t seed, Select&& select
     context.randSeed(static_cast<int>(random.in(1, 1 << 30)));
     Module module(&context);
     select(module);
-    for (std::uint64_t done = 0; done < cycles;) {
-        const auto episode = static_cast<std::uint64_t>(random.in(1, 4000));
+    constexpr std::int64_t kLongest = BenchOf<Module>::kLongestEpisode;
+    for (std::uint64_t done = 0; done < cycles * static_cast<std::uint64_t>(kLongest / kUsualEpisode);) {
+        const auto episode = static_cast<std::uint64_t>(random.in(1, kLongest));
         auto bench = std::make_unique<BenchOf<Module>>(module, random);
         const std::string difference = bench->run(episode);
         if (!difference.empty()) {
@@ -300,13 +316,18 @@ std::string cosimulate(std::uint64_t cycles, std::uint64_t seed, Select&& select
     return {};
 }
 
-inline constexpr std::uint64_t kCosimulatedCycles = 100'000;
-inline constexpr std::uint64_t kMutantCycles = 40'000;
+/// Cycles of a co-simulation: 100,000, or RAYSPACE_RTL_CYCLES.
+inline std::uint64_t cosimulated_cycles() {
+    constexpr std::uint64_t kCycles = 100'000;
+    const char* const cycles = std::getenv("RAYSPACE_RTL_CYCLES");
+    return cycles == nullptr ? kCycles : std::strtoull(cycles, nullptr, 10);
+}
+inline constexpr std::uint64_t kMutantCycles = 100'000;
 inline constexpr int kLeastMutants = 5;
 
 template <template <class> class BenchOf, class Module>
 void expect_equal_to_model() {
-    EXPECT_EQ((cosimulate<BenchOf, Module>(kCosimulatedCycles, 1, [](Module&) {})), "");
+    EXPECT_EQ((cosimulate<BenchOf, Module>(cosimulated_cycles(), 1, [](Module&) {})), "");
 }
 
 /// Every mutant of the module (NAME.mutants) must differ from the model; mutant 0 is the module itself.

@@ -3,7 +3,7 @@
 // model.
 
 #include "tests/engine/model/board_test_objects.hpp"
-#include "tests/engine/rtl/random_registers.hpp"
+#include "tests/engine/rtl/lockstep.hpp"
 #include "tests/engine/rtl/sdram_pins.hpp"
 
 #include <Vpipe.h>
@@ -12,158 +12,31 @@
 namespace rs::engine::rtl {
 namespace {
 
-constexpr std::uint64_t mask(int width_bits) {
-    return (std::uint64_t{1} << width_bits) - 1;
-}
-
-/// Ports of the module at a FIFO of the model that the module reads or writes.
-class PipeEnd {
-public:
-    virtual ~PipeEnd() = default;
-    virtual void drive(Random& random) = 0;
-    virtual void sample() = 0;                                 // before the model's cycle, with stable outputs
-    [[nodiscard]] virtual std::string difference() const = 0;  // after it
-};
-
-template <class T, class Data>
-class PipeInput final : public PipeEnd {
-public:
-    PipeInput(model::Fifo<T>& fifo, CData& valid, const CData& ready, Data& data)
-        : fifo_(fifo), valid_(valid), ready_(ready), data_(data) {}
-    void drive(Random& random) override {
-        valid_ = fifo_.can_pop();
-        write_port(data_, valid_ != 0 ? pack(fifo_.front()) : random_bits(random), fifo_.width_bits());
-        popped_ = total_popped();
-    }
-    void sample() override { pops_ = valid_ != 0 && ready_ != 0; }
-    [[nodiscard]] std::string difference() const override {
-        return (total_popped() != popped_) == pops_ ? "" : fifo_.name() + ": only one of RTL and model pops";
-    }
-
-private:
-    [[nodiscard]] std::uint64_t total_popped() const {
-        return fifo_.total_pushed() - static_cast<std::uint64_t>(fifo_.count());
-    }
-    model::Fifo<T>& fifo_;
-    CData& valid_;
-    const CData& ready_;
-    Data& data_;
-    std::uint64_t popped_ = 0;
-    bool pops_ = false;
-};
-
-template <class T, class Data>
-class PipeOutput final : public PipeEnd {
-public:
-    PipeOutput(model::Fifo<T>& fifo, const CData& valid, CData& ready, const Data& data)
-        : fifo_(fifo), valid_(valid), ready_(ready), data_(data) {}
-    void drive(Random& /*random*/) override {
-        ready_ = fifo_.can_push();
-        pushed_ = fifo_.total_pushed();
-    }
-    void sample() override {
-        pushes_ = valid_ != 0 && ready_ != 0;
-        text_ = std::to_string(data_);  // as text(MemoryWord) and text(Done)
-    }
-    [[nodiscard]] std::string difference() const override {
-        if ((fifo_.total_pushed() != pushed_) != pushes_) return fifo_.name() + ": only one of RTL and model pushes";
-        if (pushes_ && fifo_.item_text(fifo_.count() - 1) != text_) return fifo_.name() + ": the message differs";
-        return {};
-    }
-
-private:
-    model::Fifo<T>& fifo_;
-    const CData& valid_;
-    CData& ready_;
-    const Data& data_;
-    std::uint64_t pushed_ = 0;
-    bool pushes_ = false;
-    std::string text_;
-};
-
 template <class Module>
-class PipeBench {
+class PipeBench final : public LockstepBench<Module> {
 public:
     PipeBench(Module& module, model::Board& board, Random& random)
-        : module_(module),
-          board_(board),
+        : LockstepBench<Module>(module, board, random),
           body_(dynamic_cast<model::SingleBoard<model::SampleReading>&>(*board.top().body)),
-          random_(random),
           pins_(module, body_.sdram, random) {
-        input(body_.fifos.jobs, RS_RTL_PORTS(module, jobs));
-        output(body_.fifos.view_written, RS_RTL_PORTS(module, view_written));
-        input(body_.host_reads, RS_RTL_PORTS(module, host_reads));
-        output(body_.host_words, RS_RTL_PORTS(module, host_words));
-        input(board.top().load_words, RS_RTL_PORTS(module, load_words));
-        output(board.top().object_loaded, RS_RTL_PORTS(module, object_loaded));
-        module.rst = 1;
-        for (int n = 0; n < 3; ++n) clock_edge();
-        module.rst = 0;
-    }
-
-    /// Runs until `views` views are delivered, and loads are finished. Returns the first difference, or "".
-    std::string run(std::size_t views) {
-        constexpr int kMostCycles = 400'000;
-        for (int cycle = 0; cycle < kMostCycles; ++cycle) {
-            const std::string difference = step();
-            if (!difference.empty()) return "cycle " + std::to_string(cycle) + ": " + difference;
-            const auto& images = board_.top().host_bus.images();
-            const bool is_done = images.size() == views && images.back().words.size() == images.back().expected_words;
-            if (is_done && board_.top().disk_controller.is_idle()) return {};
-        }
-        return "the views are not delivered";
+        this->input(body_.fifos.jobs, RS_RTL_PORTS(module, jobs));
+        this->output(body_.fifos.view_written, RS_RTL_PORTS(module, view_written));
+        this->input(body_.host_reads, RS_RTL_PORTS(module, host_reads));
+        this->output(body_.host_words, RS_RTL_PORTS(module, host_words));
+        this->input(board.top().load_words, RS_RTL_PORTS(module, load_words));
+        this->output(board.top().object_loaded, RS_RTL_PORTS(module, object_loaded));
     }
 
 private:
-    template <class T, class Data>
-    void input(model::Fifo<T>& fifo, CData& valid, const CData& ready, Data& data) {
-        ends_.push_back(std::make_unique<PipeInput<T, Data>>(fifo, valid, ready, data));
-    }
-    template <class T, class Data>
-    void output(model::Fifo<T>& fifo, const CData& valid, CData& ready, const Data& data) {
-        ends_.push_back(std::make_unique<PipeOutput<T, Data>>(fifo, valid, ready, data));
-    }
-    void clock_edge() {
-        module_.clk = 0;
-        module_.eval();
-        module_.clk = 1;
-        module_.eval();
-        module_.clk = 0;
-    }
-    std::string step() {
-        for (const auto& end : ends_) end->drive(random_);
-        module_.host_words_room = static_cast<CData>(body_.host_words.room());
-        module_.eval();
-        look_up_columns();
-        look_up_photos();
-        std::string difference = pins_.clock();
-        module_.eval();
-        for (const auto& end : ends_) end->sample();
-        board_.top().simulator.step();
-        for (const auto& end : ends_) difference += end->difference();
-        clock_edge();
-        return difference;
-    }
-
-    [[nodiscard]] int valid(int view) const {
-        const model::RegisterFile& registers = board_.top().registers;
-        const auto views = static_cast<int>(registers.banks[static_cast<std::size_t>(registers.active)].views.size());
-        return view < views ? view : 0;
-    }
-    // An empty bank is read only while no block has a view.
-    [[nodiscard]] const model::BoardView& view(int number) const {
-        static const model::BoardView kNone;
-        const model::RegisterFile& registers = board_.top().registers;
-        const auto& views = registers.banks[static_cast<std::size_t>(registers.active)].views;
-        return views.empty() ? kNone : views[static_cast<std::size_t>(valid(number))];
-    }
-    [[nodiscard]] const model::ObjectRegisters& object(int number) const {
-        return board_.top().registers.objects[static_cast<std::size_t>(view(number).object)];
-    }
     static const model::PlaneView& plane(const model::BoardView& view, int number) {
         return view.planes[static_cast<std::size_t>(std::min(number, model::kMaxPlanes - 1))];
     }
-
+    void drive() override { module_.host_words_room = static_cast<CData>(body_.host_words.room()); }
+    std::string compare() override { return pins_.clock(); }
+    void look_up() override {
+        look_up_columns();
+        look_up_photos();
+    }
     void look_up_columns() {
         const model::BoardView& scanned = view(module_.raster_view);
         const model::PlaneView& raster = plane(scanned, module_.raster_plane);
@@ -213,23 +86,23 @@ private:
         module_.active_buffer = static_cast<CData>(board_.top().registers.active);
     }
 
-    Module& module_;
-    model::Board& board_;
+    using LockstepBench<Module>::module_;
+    using LockstepBench<Module>::board_;
+    using LockstepBench<Module>::view;
+    using LockstepBench<Module>::object;
     model::SingleBoard<model::SampleReading>& body_;
-    Random& random_;
     SdramPins<Module> pins_;
-    std::vector<std::unique_ptr<PipeEnd>> ends_;
 };
 
 // Two rendering cycles of random views, beside which another object is loaded. Returns the first difference, or "".
-template <class Module, class Select>
-std::string render_in_lockstep(std::size_t views_per_cycle, Select&& select) {
+template <class Module>
+LockstepRun render_in_lockstep(Module& module, std::size_t views_per_cycle, std::uint64_t seed) {
     const RaySpaceObject object = rs::test::ring_object({.views = 12, .planes = 12});
     model::Board board(model::test::prototype());
     const Result<int> slot = board.place(object);
     EXPECT_TRUE(slot.ok());
     EXPECT_TRUE(board.start_load(rs::test::ring_object({.views = 4, .width = 16, .height = 16, .planes = 3})).ok());
-    std::mt19937_64 random_views(7);
+    std::mt19937_64 random_views(7 + seed);
     for (int cycle = 0; cycle < 2; ++cycle) {
         std::vector<model::BoardView> views;
         while (views.size() < views_per_cycle) {
@@ -238,32 +111,19 @@ std::string render_in_lockstep(std::size_t views_per_cycle, Select&& select) {
         }
         board.submit(views);
     }
-    Random random(5);
-    VerilatedContext context;
-    context.randReset(2);
-    Module module(&context);
-    select(module);
-    return PipeBench<Module>(module, board, random).run(2 * views_per_cycle);
+    Random random(5 + seed);
+    const std::string difference = PipeBench<Module>(module, board, random).run(2 * views_per_cycle);
+    return {difference, board.top().simulator.board_cycles()};
 }
 
 TEST(RtlPipe, EqualsTheBoard) {
-    EXPECT_EQ(render_in_lockstep<Vpipe>(7, [](Vpipe&) {}), "");
+    expect_equal_in_lockstep<Vpipe>(
+        [](Vpipe& module, std::uint64_t seed) { return render_in_lockstep(module, 7, seed); });
 }
 
 TEST(RtlPipe, MutantsDifferFromTheBoard) {
-    int mutants = 0;
-    EXPECT_EQ(render_in_lockstep<Vpipe_mutants>(2,
-                                                [&](Vpipe_mutants& module) {
-                                                    module.mutant = 0;
-                                                    module.eval();
-                                                    mutants = module.mutants;
-                                                }),
-              "");
-    EXPECT_GE(mutants, kLeastMutants);
-    for (int n = 1; n <= mutants; ++n) {
-        const auto select = [&](Vpipe_mutants& module) { module.mutant = static_cast<CData>(n); };
-        EXPECT_NE(render_in_lockstep<Vpipe_mutants>(2, select), "") << "mutant " << n << " is not noticed";
-    }
+    expect_mutants_differ_in_lockstep<Vpipe_mutants>(
+        [](Vpipe_mutants& module) { return render_in_lockstep(module, 2, 0); });
 }
 
 }  // namespace

@@ -2,13 +2,15 @@
 #include "tests/engine/rtl/cosimulation.hpp"
 #include "tests/engine/rtl/random_registers.hpp"
 
-#include <Vraster_generator.h>
-#include <Vraster_generator_mutants.h>
+#include <Vraster_generator_1.h>
+#include <Vraster_generator_16.h>
+#include <Vraster_generator_16_mutants.h>
+#include <Vraster_generator_1_mutants.h>
 
 namespace rs::engine::rtl {
 namespace {
 
-template <class Module>
+template <class Module, int kPipes>
 class RasterGeneratorBench final : public Bench<Module> {
 public:
     RasterGeneratorBench(Module& module, Random& random) : Bench<Module>(module, random) {
@@ -37,10 +39,16 @@ private:
     model::RegisterFile registers_ = random_registers(this->random_);
     model::Fifo<model::ViewJob> jobs_{"jobs", 2, model::ViewJob::kBits};
     model::Fifo<model::ColumnRay> columns_{"columns", 2, model::ColumnRay::kBits};
-    model::RasterGenerator block_{registers_, {}, {.jobs = jobs_, .columns = columns_}};
+    model::RasterGenerator block_{registers_, {0, kPipes}, {.jobs = jobs_, .columns = columns_}};
 };
 
-RS_RTL_TESTS(RtlRasterGenerator, RasterGeneratorBench, raster_generator)
+template <class Module>
+using PrototypeRasterBench = RasterGeneratorBench<Module, 1>;
+template <class Module>
+using ParallelRasterBench = RasterGeneratorBench<Module, 16>;
+
+RS_RTL_TESTS(RtlRasterGenerator, PrototypeRasterBench, raster_generator_1)
+RS_RTL_TESTS(RtlParallelRasterGenerator, ParallelRasterBench, raster_generator_16)
 
 }  // namespace
 }  // namespace rs::engine::rtl

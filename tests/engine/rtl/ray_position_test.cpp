@@ -2,15 +2,17 @@
 #include "tests/engine/rtl/cosimulation.hpp"
 #include "tests/engine/rtl/random_registers.hpp"
 
-#include <Vray_position.h>
-#include <Vray_position_mutants.h>
+#include <Vray_position_0.h>
+#include <Vray_position_0_mutants.h>
+#include <Vray_position_1.h>
+#include <Vray_position_1_mutants.h>
 
 #include <algorithm>
 
 namespace rs::engine::rtl {
 namespace {
 
-template <class Module>
+template <class Module, int kPointBits>
 class RayPositionBench final : public Bench<Module> {
 public:
     RayPositionBench(Module& module, Random& random) : Bench<Module>(module, random) {
@@ -60,11 +62,17 @@ private:
 
     model::RegisterFile registers_ = random_registers(this->random_);
     model::Fifo<model::ColumnRay> columns_{"columns", 2, model::ColumnRay::kBits};
-    model::Fifo<model::RayPoint> points_{"points", 2, model::RayPoint::kBits};
+    model::Fifo<model::RayPoint> points_{"points", 2, kPointBits};
     model::RayPosition block_{registers_, {.in = columns_, .out = points_}};
 };
 
-RS_RTL_TESTS(RtlRayPosition, RayPositionBench, ray_position)
+template <class Module>
+using PrototypePositionBench = RayPositionBench<Module, model::RayPoint::kBits>;
+template <class Module>
+using ParallelPositionBench = RayPositionBench<Module, model::RayPoint::kBitsWithDirection>;
+
+RS_RTL_TESTS(RtlRayPosition, PrototypePositionBench, ray_position_0)
+RS_RTL_TESTS(RtlParallelRayPosition, ParallelPositionBench, ray_position_1)
 
 }  // namespace
 }  // namespace rs::engine::rtl

@@ -1,0 +1,69 @@
+#pragma once
+// Messages of a pipe of `parallel` as packed structures of engine/rtl/messages.svh.
+
+#include "engine/model/signals/parallel_messages.hpp"
+#include "tests/engine/rtl/bits.hpp"
+
+namespace rs::engine::rtl {
+
+inline BitsWriter& put(BitsWriter& writer, const model::SampleHead& m) {
+    return writer.put(m.id, 9)
+        .put(m.is_there, 1)
+        .put(m.second, 1)
+        .put(m.weight, 9)
+        .put(m.last, 1)
+        .put(m.final, 1)
+        .put(m.next.begin, 9);
+}
+inline Bits pack(const model::PatchJob& m) {
+    return BitsWriter(m.kBits)
+        .put(m.view, 4)
+        .put(m.slot, 2)
+        .put(m.first_column / model::kStripeColumns, 5)
+        .put(m.first_row / model::kPatchRows, 6)
+        .put(m.columns, 5)
+        .put(m.rows, 4)
+        .put(m.ends_stripe, 1)
+        .put(m.ends_view, 1)
+        .bits();
+}
+inline Bits pack(const model::ScannedPixel& m) {
+    return BitsWriter(m.kBits).put(m.id, 9).put(m.view, 4).put(m.stripe, 2).put(m.row, 9).put(m.rise_q24, 28).bits();
+}
+// An empty pixel is its number alone.
+inline Bits pack(const model::FinishedPixel& m, int width_bits) {
+    BitsWriter writer(width_bits);
+    writer.put(m.id, 9);
+    return width_bits == m.kBitsOfEmpty ? writer.bits() : writer.put(m.rgba, 32).bits();
+}
+inline Bits pack(const model::ReturnedPixel& m) {
+    return BitsWriter(m.kBits).put(m.id, 9).put(m.state.begin, 9).bits();
+}
+inline Bits pack(const model::TexelFill& m) {
+    return BitsWriter(m.kBits)
+        .put(m.view, 4)
+        .put(m.image, 7)
+        .put(m.block_column, 6)
+        .put(m.block_row, 6)
+        .put(m.line, 7)
+        .put(static_cast<std::int64_t>(m.guard), 10)
+        .bits();
+}
+inline Bits pack(const model::FillTarget& m) {
+    return BitsWriter(m.kBits).put(m.line, 7).put(static_cast<std::int64_t>(m.guard), 10).bits();
+}
+inline Bits pack(const model::FillKind& m) {
+    return BitsWriter(m.kBits).put(m.coded, 1).bits();
+}
+inline Bits pack(const model::TexelQuad& m) {
+    BitsWriter writer(m.kBits);
+    put(writer, m.head).put(m.inside, 1).put(m.fx, 3).put(m.fy, 3);
+    for (std::size_t n = m.rgba.size(); n-- > 0;) writer.put(m.rgba[n], 32);
+    return writer.bits();
+}
+inline Bits pack(const model::FilteredSample& m) {
+    BitsWriter writer(m.kBits);
+    return put(writer, m.head).put(m.inside, 1).put(m.a, 14).put(m.r, 22).put(m.g, 22).put(m.b, 22).bits();
+}
+
+}  // namespace rs::engine::rtl
