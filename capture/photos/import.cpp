@@ -1,9 +1,7 @@
 #include "capture/photos/import.hpp"
 
-#include "capture/photos/intake/intake.hpp"
 #include "capture/photos/intake/photo_source.hpp"
 #include "capture/photos/intake/video/frame_selection.hpp"
-#include "capture/photos/segmentation/segment_turn.hpp"
 #include "capture/photos/segmentation/segmentation_checks.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
@@ -23,28 +21,6 @@ namespace rs::capture {
 namespace {
 
 namespace fs = std::filesystem;
-
-Status check(const ImportOptions& options) {
-    if (options.fov_deg && !(*options.fov_deg >= 1 && *options.fov_deg <= 120)) {
-        return Error{"--fov " + std::to_string(*options.fov_deg) +
-                     ": give the horizontal field of view, 1 to 120 degrees"};
-    }
-    if (options.degrees_per_view && !(*options.degrees_per_view >= 0.01 && *options.degrees_per_view <= 180)) {
-        return Error{"--degrees-per-view " + std::to_string(*options.degrees_per_view) + ": give 0.01 to 180 degrees"};
-    }
-    if (options.axis_x_px && !(std::abs(*options.axis_x_px) <= 10.0 * kMaxImageSide_px)) {
-        return Error{"--axis-x " + std::to_string(*options.axis_x_px) + ": give a column of the images in px"};
-    }
-    if (options.max_side_px < kMinSide_px || options.max_side_px > kMaxImageSide_px) {
-        return Error{"--max-side " + std::to_string(options.max_side_px) + ": give " + std::to_string(kMinSide_px) +
-                     " to " + std::to_string(kMaxImageSide_px) + " px"};
-    }
-    if (options.frames && (*options.frames < kMinSelectedFrames || *options.frames > kMaxSelectedFrames)) {
-        return Error{"--frames " + std::to_string(*options.frames) + ": give " + std::to_string(kMinSelectedFrames) +
-                     " to " + std::to_string(kMaxSelectedFrames)};
-    }
-    return {};
-}
 
 PhotoRequest photo_request(const ImportOptions& options) {
     const KnownInputs& known = options.known.known;
@@ -137,21 +113,9 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
         RS_TRY(make_folder(inner, options.output));
     }
 
-    RS_ASSIGN_OR_RETURN(Intake intake, run_intake(std::move(folder), progress));
-
-    RS_ASSIGN_OR_RETURN(ChosenSegmenter chosen,
-                        choose_segmenter(options.segmentation, intake, options.photos.string(), progress));
-    intake.survey = Survey{};  // frees memory; the survey is not needed any more
-
+    RS_ASSIGN_OR_RETURN(PreparedTurn prepared, prepare_turn(options, std::move(folder), cut, progress));
+    auto& [intake, chosen, turn] = prepared;
     const ForegroundCache foregrounds(cut, intake.folder.width, intake.folder.height);
-    RS_ASSIGN_OR_RETURN(SegmentedTurn turn, segment_turn(intake.folder, *chosen.segmenter, foregrounds, progress,
-                                                         options.segmentation.parameters.foreground));
-    chosen.segmenter.reset();
-    SegmentationFindings findings =
-        check_segmentation(intake.folder, turn, chosen.kind, options.segmentation.parameters.checks);
-    chosen.notes.insert(chosen.notes.end(), findings.notes.begin(), findings.notes.end());
-    RS_TRY(report_problems(options, findings.problems, chosen.notes));
-
     RS_ASSIGN_OR_RETURN(FoundRig rig, find_rig(options, intake.folder, turn, foregrounds, progress));
     RS_TRY(report_problems(options, calibration_problems(rig), rig.notes));
 
@@ -167,8 +131,49 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
 
 }  // namespace
 
+Status check_import_options(const ImportOptions& options) {
+    if (options.fov_deg && !(*options.fov_deg >= 1 && *options.fov_deg <= 120)) {
+        return Error{"--fov " + std::to_string(*options.fov_deg) +
+                     ": give the horizontal field of view, 1 to 120 degrees"};
+    }
+    if (options.degrees_per_view && !(*options.degrees_per_view >= 0.01 && *options.degrees_per_view <= 180)) {
+        return Error{"--degrees-per-view " + std::to_string(*options.degrees_per_view) + ": give 0.01 to 180 degrees"};
+    }
+    if (options.axis_x_px && !(std::abs(*options.axis_x_px) <= 10.0 * kMaxImageSide_px)) {
+        return Error{"--axis-x " + std::to_string(*options.axis_x_px) + ": give a column of the images in px"};
+    }
+    if (options.max_side_px < kMinSide_px || options.max_side_px > kMaxImageSide_px) {
+        return Error{"--max-side " + std::to_string(options.max_side_px) + ": give " + std::to_string(kMinSide_px) +
+                     " to " + std::to_string(kMaxImageSide_px) + " px"};
+    }
+    if (options.frames && (*options.frames < kMinSelectedFrames || *options.frames > kMaxSelectedFrames)) {
+        return Error{"--frames " + std::to_string(*options.frames) + ": give " + std::to_string(kMinSelectedFrames) +
+                     " to " + std::to_string(kMaxSelectedFrames)};
+    }
+    return {};
+}
+
+Result<PreparedTurn> prepare_turn(const ImportOptions& options, PhotoFolder folder, const fs::path& cut,
+                                  Progress* progress) {
+    RS_ASSIGN_OR_RETURN(Intake intake, run_intake(std::move(folder), progress));
+
+    RS_ASSIGN_OR_RETURN(ChosenSegmenter chosen,
+                        choose_segmenter(options.segmentation, intake, options.photos.string(), progress));
+    intake.survey = Survey{};  // frees memory; the survey is not needed any more
+
+    const ForegroundCache foregrounds(cut, intake.folder.width, intake.folder.height);
+    RS_ASSIGN_OR_RETURN(SegmentedTurn turn, segment_turn(intake.folder, *chosen.segmenter, foregrounds, progress,
+                                                         options.segmentation.parameters.foreground));
+    chosen.segmenter.reset();
+    SegmentationFindings findings =
+        check_segmentation(intake.folder, turn, chosen.kind, options.segmentation.parameters.checks);
+    chosen.notes.insert(chosen.notes.end(), findings.notes.begin(), findings.notes.end());
+    RS_TRY(report_problems(options, findings.problems, chosen.notes));
+    return PreparedTurn{std::move(intake), std::move(chosen), std::move(turn)};
+}
+
 Result<ImportReport> import_photos(const ImportOptions& options, Progress* progress) {
-    RS_TRY(check(options));
+    RS_TRY(check_import_options(options));
     // Many photos are processed in parallel; OpenCV's own threads would only compete for the same cores.
     cv::setNumThreads(1);
     try {

@@ -10,8 +10,10 @@
 ///   find_rig()           foreground images -> lens, axis, angles                   rig/found_rig.hpp
 ///   write_import_set()   foreground images, rig -> set      report/import_report.hpp
 
+#include "capture/photos/intake/intake.hpp"
 #include "capture/photos/report/import_report.hpp"
 #include "capture/photos/rig/found_rig.hpp"
+#include "capture/photos/segmentation/segment_turn.hpp"
 #include "capture/photos/segmentation/segmenter_choice.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
@@ -34,6 +36,22 @@ struct ImportOptions : RigRequest {
     /// kMaxSelectedFrames (intake/video/frame_selection.hpp). Empty: see intake/photo_source.hpp.
     std::optional<int> frames;
 };
+
+/// Photos of a turn, segmented.
+struct PreparedTurn {
+    Intake intake;
+    ChosenSegmenter chosen;  ///< without its segmenter
+    SegmentedTurn turn;
+};
+
+/// First five stages, with the problems of the segmentation as errors, or as notes with `options.force`. Puts the
+/// foreground images into the folder `cut`, which must exist: ForegroundCache(cut, width, height) of the intake's
+/// folder. options.photos is named in messages.
+Result<PreparedTurn> prepare_turn(const ImportOptions& options, PhotoFolder folder, const std::filesystem::path& cut,
+                                  Progress* progress);
+
+/// Errors of option values that are out of range.
+Status check_import_options(const ImportOptions& options);
 
 /// Imports a folder of photos. Nothing is left at `output` if it fails. Errors, besides those of the stages: options
 /// out of range; an output folder that is or contains the folder of photos; one or two photos, unless a nominal rig or

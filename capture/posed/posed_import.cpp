@@ -1,24 +1,20 @@
 #include "capture/posed/posed_import.hpp"
 
-#include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/intake/bounded_work.hpp"
 #include "capture/photos/intake/intake.hpp"
 #include "capture/photos/segmentation/foreground_image.hpp"
 #include "capture/photos/segmentation/segment_turn.hpp"
 #include "capture/posed/cameras/camera_file.hpp"
 #include "capture/posed/photo_match.hpp"
-#include "capture/posed/undistortion.hpp"
+#include "capture/posed/posed_set.hpp"
 #include "capture/posed/visual_hull.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/file_reference.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/image_io/image_io.hpp"
 
-#include <glm/gtc/quaternion.hpp>
 #include <opencv2/core/utility.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <exception>
@@ -34,13 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kFewestPosed = 3;
-
-// A photo in the set, or one that shows no object: then its mask is empty.
-struct ImportedPhoto {
-    Camera camera;  // in the world of the cameras' file
-    HullView hull;
-    bool was_distorted = false;
-};
 
 // Photos of one size.
 struct PhotoGroup {
@@ -142,51 +131,19 @@ PosedCamera in_working_size(PosedCamera posed, const PhotoFolder& folder) {
     return posed;
 }
 
-HullView hull_view_of(const Image<Rgba8>& image, const Camera& camera) {
-    cv::Mat1b alpha, reduced;
-    cv::extractChannel(mat_view(image.view()), alpha, 3);
-    const double scale = std::min(1.0, static_cast<double>(kHullMask_px) / std::max(image.width(), image.height()));
-    const cv::Size size(std::max(1, static_cast<int>(std::lround(image.width() * scale))),
-                        std::max(1, static_cast<int>(std::lround(image.height() * scale))));
-    cv::resize(alpha, reduced, size, 0, 0, cv::INTER_AREA);
-    HullView view{camera, {}};
-    cv::threshold(reduced, view.mask, 127, 255, cv::THRESH_BINARY);
-    const double by_x = static_cast<double>(size.width) / image.width();
-    const double by_y = static_cast<double>(size.height) / image.height();
-    view.camera.fl_x *= by_x;
-    view.camera.cx *= by_x;
-    view.camera.fl_y *= by_y;
-    view.camera.cy *= by_y;
-    view.camera.width = size.width;
-    view.camera.height = size.height;
-    return view;
-}
-
-// Segments and undistorts photo `i` of a group, and writes it as image `view` of the set.
-Result<ImportedPhoto> import_photo(const PhotoGroup& group, std::size_t i, const PosedCamera& posed,
-                                   const Segmenter& segmenter, const ForegroundParameters& parameters,
-                                   const fs::path& file) {
+// Segments photo `i` of a group, and writes it as image `file` of the set.
+Result<PosedImage> import_photo(const PhotoGroup& group, std::size_t i, const PosedCamera& posed,
+                                const Segmenter& segmenter, const ForegroundParameters& parameters,
+                                const fs::path& file) {
     RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photo(group.folder, i));
     RS_ASSIGN_OR_RETURN(const Segmentation segmentation, segmenter.segment({i, photo.view()}));
-    Image<Rgba8> foreground = make_foreground_image(photo, segmentation, parameters);
-    TurnSilhouette silhouette(foreground.width(), foreground.height());
-    silhouette.add(foreground);
-    ImportedPhoto imported;
-    if (silhouette.visible().empty()) return imported;
-    RS_ASSIGN_OR_RETURN(imported.camera,
-                        undistorted_camera(posed, silhouette.visible(), group.folder.photos[i].string()));
-    imported.was_distorted = !posed.distortion.is_pinhole();
-    const Image<Rgba8> image = undistorted(posed, imported.camera, std::move(foreground));
-    HullView hull = hull_view_of(image, imported.camera);
-    if (cv::countNonZero(hull.mask) == 0) return imported;
-    imported.hull = std::move(hull);
-    RS_TRY(write_png(file, image));
-    return imported;
+    return write_posed_image(posed, make_foreground_image(photo, segmentation, parameters),
+                             group.folder.photos[i].string(), file);
 }
 
-Result<std::vector<ImportedPhoto>> import_groups(const PhotoMatches& matches, const PosedImportOptions& options,
-                                                 const fs::path& set, PosedImportReport& report, Progress* progress) {
-    std::vector<ImportedPhoto> imported(matches.photos.size());
+Result<std::vector<PosedImage>> import_groups(const PhotoMatches& matches, const PosedImportOptions& options,
+                                              const fs::path& set, PosedImportReport& report, Progress* progress) {
+    std::vector<PosedImage> imported(matches.photos.size());
     for (const PhotoGroup& group : grouped_by_size(matches, options)) {
         report.sizes.push_back(size_text(group.folder.shown_width, group.folder.shown_height));
         RS_ASSIGN_OR_RETURN(const ChosenSegmenter chosen, segmenter_of(group, matches, options, progress));
@@ -241,56 +198,15 @@ Result<glm::dvec3> find_target(std::vector<HullView>& views, bool is_uncertain, 
                  (is_uncertain ? "give --camera-axes opengl or opencv, " : "") + "or take these photos out"};
 }
 
-// Rotation from the world of the cameras' file to the set: Y up, the first camera beside the axis above +Z.
-glm::dmat3 set_from_world(const glm::dvec3& up, const glm::dvec3& centre, std::span<const Camera> cameras) {
-    constexpr double kMinBeside = 0.05;  // of its distance
-    glm::dvec3 z(0);
-    for (const Camera& camera : cameras) {
-        const glm::dvec3 off = camera.centre() - centre;
-        z = off - glm::dot(off, up) * up;
-        if (glm::length(z) > kMinBeside * glm::length(off)) break;
-    }
-    if (!(glm::length(z) > 0)) z = glm::cross(std::abs(up.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), up);
-    z = glm::normalize(z);
-    return glm::transpose(glm::dmat3(glm::cross(up, z), up, z));
-}
-
-nlohmann::json numbers(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-// JSON must be UTF-8, file names need not be.
-std::string utf8_name(const std::string& name) {
-    return nlohmann::json::parse(nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-}
-
 Rig rig_of(const PhotoMatches& matches, const std::vector<std::size_t>& kept, std::span<const Camera> cameras,
            const PosedImportReport& report) {
-    const glm::dmat3 turn = set_from_world(report.up.direction, report.origin, cameras);
-    Rig rig;
-    rig.object_radius = 1;
-    rig.extras["posed"] = true;
-    rig.extras["axis_note"] = "Y is up, the origin is the middle of the object's bounding cylinder";
+    std::vector<std::string> names;
+    for (const std::size_t i : kept) names.push_back(matches.photos[i].name);
+    Rig rig = posed_rig(cameras, names, {report.up.direction, report.origin, report.radius});
     nlohmann::json& made = rig.extras["photo_import"];
     made["calibration"] = "posed";
     made["segmenter"] = to_string(report.segmenter);
-    made["up"] = numbers(report.up.direction);
     made["up_from"] = report.up.from;
-    made["origin"] = numbers(report.origin);
-    made["radius"] = report.radius;
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-        RigView view;
-        view.camera = cameras[i];
-        // Matrices from files are rotations within 1e-3; those of the set are within rounding.
-        const glm::dmat3 rotation =
-            glm::mat3_cast(glm::normalize(glm::quat_cast(turn * glm::dmat3(cameras[i].world_from_camera))));
-        const glm::dvec3 centre = turn * (cameras[i].centre() - report.origin) / report.radius;
-        view.camera.world_from_camera = glm::dmat4(rotation);
-        view.camera.world_from_camera[3] = glm::dvec4(centre, 1);
-        view.file_path = set_image_name(i);
-        view.extras["source_file"] = utf8_name(matches.photos[kept[i]].name);
-        rig.views.push_back(std::move(view));
-    }
     return rig;
 }
 
@@ -375,7 +291,7 @@ Result<PosedImportReport> import_posed_checked(const PosedImportOptions& options
     report.notes = model.notes;
     report.without_camera = std::move(matches.without_camera);
     report.without_photo = std::move(matches.without_photo);
-    RS_ASSIGN_OR_RETURN(std::vector<ImportedPhoto> imported, import_groups(matches, options, set, report, progress));
+    RS_ASSIGN_OR_RETURN(std::vector<PosedImage> imported, import_groups(matches, options, set, report, progress));
     std::vector<std::size_t> kept;
     std::vector<HullView> hulls;
     std::vector<std::string> names;

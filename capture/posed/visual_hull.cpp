@@ -133,6 +133,25 @@ double share_beyond(const HullView& view, const std::vector<glm::dvec3>& kept, c
     return static_cast<double>(cv::countNonZero(beyond)) / cv::countNonZero(view.mask);
 }
 
+// Voxels in the frame; `middle` is the target there.
+Result<VisualHull> carve_in_frame(std::span<const HullView> views, const glm::dvec3& middle,
+                                  const glm::dmat3& frame_from_world) {
+    const double extent = first_extent(views, glm::transpose(frame_from_world) * middle);
+    HullBox box{middle - extent, middle + extent};
+    std::vector<glm::dvec3> kept;
+    constexpr int kPasses = 3;
+    for (int pass = 0; pass < kPasses; ++pass) {
+        if (pass > 0) box = bounds_of(kept, box);
+        kept = carve(views, glm::transpose(frame_from_world), box);
+        if (kept.empty()) {
+            return Error{
+                "the masks have no common volume: cameras and photos do not belong together, or the masks are wrong; "
+                "check some masks, and that the poses are camera-to-world"};
+        }
+    }
+    return VisualHull{std::move(kept), (box.high - box.low) / static_cast<double>(kVoxelsPerSide)};
+}
+
 }  // namespace
 
 Result<glm::dvec3> common_target(std::span<const HullView> views) {
@@ -160,25 +179,20 @@ std::size_t count_in_front(std::span<const HullView> views, const glm::dvec3& po
         std::ranges::count_if(views, [&](const HullView& view) { return view.camera.project(point).z > 0; }));
 }
 
+Result<VisualHull> carve_visual_hull(std::span<const HullView> views, const glm::dvec3& target, const glm::dvec3& up) {
+    const glm::dmat3 frame_from_world = upright_axes(up);
+    RS_ASSIGN_OR_RETURN(VisualHull hull, carve_in_frame(views, frame_from_world * target, frame_from_world));
+    for (glm::dvec3& p : hull.voxels) p = glm::transpose(frame_from_world) * p;
+    return hull;
+}
+
 Result<BoundingCylinder> carve_bounding_cylinder(std::span<const HullView> views, const glm::dvec3& target,
                                                  const glm::dvec3& up) {
     const glm::dmat3 frame_from_world = upright_axes(up);
     const glm::dmat3 world_from_frame = glm::transpose(frame_from_world);
-    const glm::dvec3 middle = frame_from_world * target;
-    const double extent = first_extent(views, target);
-    HullBox box{middle - extent, middle + extent};
-    std::vector<glm::dvec3> kept;
-    constexpr int kPasses = 3;
-    for (int pass = 0; pass < kPasses; ++pass) {
-        if (pass > 0) box = bounds_of(kept, box);
-        kept = carve(views, world_from_frame, box);
-        if (kept.empty()) {
-            return Error{
-                "the masks have no common volume: cameras and photos do not belong together, or the masks are wrong; "
-                "check some masks, and that the poses are camera-to-world"};
-        }
-    }
-    const glm::dvec3 step = (box.high - box.low) / static_cast<double>(kVoxelsPerSide);
+    RS_ASSIGN_OR_RETURN(const VisualHull hull, carve_in_frame(views, frame_from_world * target, frame_from_world));
+    const std::vector<glm::dvec3>& kept = hull.voxels;
+    const glm::dvec3& step = hull.step;
     BoundingCylinder cylinder = cylinder_of(kept, step);
     cylinder.beyond_hull.resize(views.size());
     for_each_index(std::ssize(views), 0, [&](std::int64_t i) {

@@ -30,6 +30,15 @@ Result<glm::dvec3> common_target(std::span<const HullView> views);
 /// Number of cameras that have the point in front of them.
 std::size_t count_in_front(std::span<const HullView> views, const glm::dvec3& point);
 
+/// Voxels of the visual hull.
+struct VisualHull {
+    std::vector<glm::dvec3> voxels;  ///< centres
+    glm::dvec3 step{0};              ///< sides of a voxel in a frame whose Y is `up`
+};
+
+/// Carves voxels as carve_bounding_cylinder() does. Error: nothing remains.
+Result<VisualHull> carve_visual_hull(std::span<const HullView> views, const glm::dvec3& target, const glm::dvec3& up);
+
 /// Bounding cylinder about `up`.
 struct BoundingCylinder {
     glm::dvec3 centre{0};  ///< on the axis, at half the height

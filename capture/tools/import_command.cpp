@@ -8,6 +8,7 @@
 #include "capture/posed/cameras/camera_file.hpp"
 #include "capture/posed/cameras/colmap_model.hpp"
 #include "capture/tools/posed_options.hpp"
+#include "capture/tools/turns_options.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
@@ -35,6 +36,7 @@ namespace {
 
 struct ImportCommandLine {
     ImportOptions import;
+    std::vector<std::filesystem::path> photos;
     std::string backdrop = "auto";
     std::string segmenter = "auto";
     std::string shadow = "remove";
@@ -223,6 +225,25 @@ std::vector<std::string> turn_options(const ImportCommandLine& given) {
     return names;
 }
 
+// Names of the given options that several turns do not have.
+std::vector<std::string> options_of_one_turn(const ImportCommandLine& given) {
+    const ImportOptions& import = given.import;
+    const std::pair<const char*, bool> options[] = {{"--calibration", given.calibration != "auto"},
+                                                    {"--board", !given.board.empty()},
+                                                    {"--known", !given.known.empty()},
+                                                    {"--posed, --up, --camera-axes", given.posed.is_requested()},
+                                                    {"--masks", !import.segmentation.masks.empty()},
+                                                    {"--axis-x", import.axis_x_px.has_value()},
+                                                    {"--frames", import.frames.has_value()},
+                                                    {"--report", !given.report.empty()},
+                                                    {"--shadow", given.shadow != "remove"}};
+    std::vector<std::string> names;
+    for (const auto& [name, is_given] : options) {
+        if (is_given) names.emplace_back(name);
+    }
+    return names;
+}
+
 // Reads --known as values of one turn.
 Result<KnownFile> read_known_turn(const ImportCommandLine& given) {
     RS_ASSIGN_OR_RETURN(const PhotoFolder folder, open_photo_folder(given.import.photos));
@@ -303,6 +324,15 @@ Status run_import(const ImportCommandLine& given) {
     for (const std::filesystem::path& output : {options.output, std::filesystem::path(given.report)}) {
         if (Status kept = refuse_overwriting_inputs(output, inputs); !kept) return kept;
     }
+    options.known.known.equal_steps = given.equal_steps;
+    options.known.known.estimate_principal_point = given.principal_point;
+    // Photos with known cameras may be in several folders, which are no turns.
+    if (given.known.empty() || given.photos.size() > 1) {
+        RS_ASSIGN_OR_RETURN(const std::vector<TurnSource> turns, several_turns(given.photos));
+        if (!turns.empty()) {
+            return run_turns_import(turns, options, options_of_one_turn(given), given.json, given.quiet);
+        }
+    }
     RS_ASSIGN_OR_RETURN(const bool is_posed, has_posed_cameras(given, options));
     if (is_posed) return import_posed(given, options);
     std::optional<StagedFile> page;  // created before the import, so that an unusable path is reported at once
@@ -314,8 +344,6 @@ Status run_import(const ImportCommandLine& given) {
         RS_ASSIGN_OR_RETURN(const BoardDesign board, parse_board_design(given.board));
         options.board = board;
     }
-    options.known.known.equal_steps = given.equal_steps;
-    options.known.known.estimate_principal_point = given.principal_point;
     ProgressBar bar(given.quiet);
     RS_ASSIGN_OR_RETURN(const ImportReport report, import_photos(options, &bar));
     if (page) {
@@ -338,8 +366,10 @@ Status run_import(const ImportCommandLine& given) {
 // Photos, the set to write, and properties of the photos.
 void add_photo_options(CLI::App& command, ImportCommandLine& given) {
     command
-        .add_option("photos", given.import.photos,
-                    "Folder of photos of one turn, in natural order of their names, or a video of the turning object")
+        .add_option("photos", given.photos,
+                    "Folder of photos of one turn, in natural order of their names, or a video of the turning object. "
+                    "Several turns at different heights: a folder each, or one folder with a folder each, or with "
+                    "names of row and column")
         ->required();
     command.add_option("-o,--output", given.import.output, "Folder to write: transforms.json and images/")->required();
     command
@@ -480,8 +510,14 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
   rs-capture import photos/ -o shoe.set --segmentation-model isnet.onnx
   rs-capture import photos/ -o shoe.set --masks masks/
   rs-capture import images/ -o toy.set --known sparse/0       photos taken by hand (docs/posed.md)
+  rs-capture import low/ middle/ high/ -o toy.set             turns at several heights (docs/turns.md)
   rs-capture import turn.mp4 -o shoe.set        a video of one turn or more (docs/film.md))");
-    command->callback([given, &run] { run = [given] { return run_import(*given); }; });
+    command->callback([given, &run] {
+        run = [given] {
+            given->import.photos = given->photos.front();
+            return run_import(*given);
+        };
+    });
 }
 
 }  // namespace rs::capture

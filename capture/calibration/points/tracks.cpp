@@ -193,4 +193,12 @@ Result<std::vector<Track>> PointTracker::track_guided(const TurntableModel& mode
     }
 }
 
+std::span<const std::int16_t> PointTracker::descriptor_of(const Observation& seen) const {
+    const ViewFeatures& view = state_->views[static_cast<std::size_t>(seen.view)];
+    const auto at = std::ranges::find(view.positions, seen.p);
+    RS_CHECK(at != view.positions.end());
+    const auto feature = static_cast<std::size_t>(at - view.positions.begin());
+    return std::span(view.descriptors).subspan(feature * kDescriptorNumbers, kDescriptorNumbers);
+}
+
 }  // namespace rs::capture

@@ -89,6 +89,9 @@ public:
     [[nodiscard]] Result<std::vector<Track>> track_guided(const TurntableModel& model, double radius,
                                                           double band_px) const;
 
+    /// Descriptor of the feature at an observation of a track, kDescriptorNumbers integers (descriptor_products.hpp).
+    [[nodiscard]] std::span<const std::int16_t> descriptor_of(const Observation& seen) const;
+
 private:
     struct State;
     explicit PointTracker(std::unique_ptr<State> state);

@@ -201,8 +201,21 @@ std::vector<std::string> file_names(const PhotoFolder& folder) {
     return names;
 }
 
-Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px) {
+Result<PhotoFolder> open_photo_files(std::vector<std::filesystem::path> photos, const std::string& where,
+                                     int max_side_px) {
     RS_CHECK(max_side_px >= kMinSide_px && max_side_px <= kMaxImageSide_px);
+    PhotoFolder found;
+    found.photos = std::move(photos);
+    if (found.photos.size() > static_cast<std::size_t>(kMaxViews)) {
+        return Error{where + ": holds " + std::to_string(found.photos.size()) + " images; at most " +
+                     std::to_string(kMaxViews) + " can be imported"};
+    }
+    RS_TRY(read_headers(found));
+    set_working_size(found, max_side_px);
+    return found;
+}
+
+Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px) {
     std::error_code failure;
     std::filesystem::directory_iterator entries(folder, failure);
     if (failure) {
@@ -229,14 +242,11 @@ Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int m
     }
     sort_photos(found.photos);
     keep_one_format(found);
-    if (found.photos.size() > static_cast<std::size_t>(kMaxViews)) {
-        return Error{folder.string() + ": holds " + std::to_string(found.photos.size()) + " images; at most " +
-                     std::to_string(kMaxViews) + " can be imported"};
-    }
     std::sort(found.ignored.begin(), found.ignored.end());
-    RS_TRY(read_headers(found));
-    set_working_size(found, max_side_px);
-    return found;
+    RS_ASSIGN_OR_RETURN(PhotoFolder opened, open_photo_files(std::move(found.photos), folder.string(), max_side_px));
+    opened.ignored = std::move(found.ignored);
+    opened.in_other_formats = std::move(found.in_other_formats);
+    return opened;
 }
 
 Image<Rgba8> apply_orientation(Image<Rgba8> stored, int orientation) {

@@ -102,6 +102,10 @@ inline constexpr int kMinSide_px = 64;
 /// message has both files and sizes).
 Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px = kMaxImageSide_px);
 
+/// The same for the given files, in the given order. `where` is named in messages.
+Result<PhotoFolder> open_photo_files(std::vector<std::filesystem::path> photos, const std::string& where,
+                                     int max_side_px = kMaxImageSide_px);
+
 /// Sets the working size of a folder with a given shown size, as open_photo_folder() does.
 void set_working_size(PhotoFolder& folder, int max_side_px);
 

@@ -18,24 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr int kSilhouetteSide_px = 640;
 
-// Reads the foreground images, not the photos, so that no point of the background is tracked.
-Result<TurnImages> read_turn(const PhotoFolder& folder, const ForegroundCache& foregrounds, Progress* progress) {
-    TurnImages turn;
-    turn.width = folder.width;
-    turn.height = folder.height;
-    const int longer = std::max(folder.width, folder.height);
-    turn.reduction = (longer + kCalibrationSide_px - 1) / kCalibrationSide_px;
-    turn.images.resize(folder.photos.size());
-    for (const fs::path& photo : folder.photos) turn.names.push_back(photo.filename().string());
-    const auto read = [&](std::size_t i) -> Status {
-        RS_ASSIGN_OR_RETURN(const Image<Rgba8> cut, foregrounds.get(i));
-        turn.images[i] = calibration_image(cut, turn.reduction);
-        return {};
-    };
-    RS_TRY(for_each_photo(folder, kReadBytesPerPixel, "reading the foreground images", progress, read));
-    return turn;
-}
-
 Result<BoardCalibration> from_board(const PhotoFolder& folder, const CalibrationRequest& request,
                                     const std::vector<std::string>& names, Progress* progress) {
     const auto load = [&](int i) { return read_photo(folder, static_cast<std::size_t>(i)); };
@@ -143,6 +125,24 @@ std::optional<Calibration> calibration_from_known(const CalibrationRequest& requ
 
 }  // namespace
 
+// Reads the foreground images, not the photos, so that no point of the background is tracked.
+Result<TurnImages> read_turn_images(const PhotoFolder& folder, const ForegroundCache& foregrounds, Progress* progress) {
+    TurnImages turn;
+    turn.width = folder.width;
+    turn.height = folder.height;
+    const int longer = std::max(folder.width, folder.height);
+    turn.reduction = (longer + kCalibrationSide_px - 1) / kCalibrationSide_px;
+    turn.images.resize(folder.photos.size());
+    for (const fs::path& photo : folder.photos) turn.names.push_back(photo.filename().string());
+    const auto read = [&](std::size_t i) -> Status {
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> cut, foregrounds.get(i));
+        turn.images[i] = calibration_image(cut, turn.reduction);
+        return {};
+    };
+    RS_TRY(for_each_photo(folder, kReadBytesPerPixel, "reading the foreground images", progress, read));
+    return turn;
+}
+
 Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const ForegroundCache& foregrounds,
                                           const CalibrationRequest& request, Progress* progress) {
     PhotoCalibration result;
@@ -153,7 +153,7 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const Foreg
         return Error{"the given rig has " + std::to_string(request.known.angles_rad->size()) + " views, the folder " +
                      std::to_string(views) + " photos; give a rig of these photos"};
     }
-    RS_ASSIGN_OR_RETURN(TurnImages turn, read_turn(folder, foregrounds, progress));
+    RS_ASSIGN_OR_RETURN(TurnImages turn, read_turn_images(folder, foregrounds, progress));
     if (choice == CalibrationChoice::kBoard && !request.board) {
         return Error{
             "--calibration board: the board is not described; give --board default for "

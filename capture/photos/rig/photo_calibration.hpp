@@ -46,6 +46,9 @@ struct CalibrationRequest {
     std::function<TurntableModel()> nominal;
 };
 
+/// Reads the foreground images of a turn, reduced for calibration. Errors: an unreadable image.
+Result<TurnImages> read_turn_images(const PhotoFolder& folder, const ForegroundCache& foregrounds, Progress* progress);
+
 /// Calibrates the turn. `foregrounds` holds the foreground images of `folder` from segment_turn(). Errors: an
 /// unreadable image, known angles for another number of photos, the failure of a method other than kAuto.
 Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const ForegroundCache& foregrounds,
