@@ -1,35 +1,7 @@
 // The pipe of the board with its memory channel: every block from a view's start to its words in the SDRAM, connected by
 // FIFOs of the depths of the model (PipeFifos and SingleBoard of engine/model/board_top.hpp). The FIFOs at its ports
 // belong to the surroundings: render control, host DMA, disk controller. Register look-ups are named by their block.
-
-// A FIFO of the pipe: NAME_in is written by a block, NAME_out is read by another.
-`define PIPE_FIFO(name, NAME) \
-  logic name``_in_valid, name``_in_ready, name``_out_valid, name``_out_ready; \
-  logic [board::NAME``_BITS-1:0] name``_in_data, name``_out_data; \
-  /* verilator lint_off UNUSEDSIGNAL */ \
-  logic [$clog2(board::NAME``_DEPTH+1)-1:0] name``_count; \
-  /* verilator lint_on UNUSEDSIGNAL */ \
-  fifo #( \
-      .WIDTH(board::NAME``_BITS), \
-      .DEPTH(board::NAME``_DEPTH) \
-  ) name``_fifo ( \
-      .clk(clk), \
-      .rst(rst), \
-      .in_valid(name``_in_valid), \
-      .in_ready(name``_in_ready), \
-      .in_data(name``_in_data), \
-      .out_valid(name``_out_valid), \
-      .out_ready(name``_out_ready), \
-      .out_data(name``_out_data), \
-      .count(name``_count) \
-  );
-
-// Ports of a block that writes, and of one that reads.
-`define PIPE_WRITES(name) \
-  .name``_valid(name``_in_valid), .name``_ready(name``_in_ready), .name``_data(name``_in_data)
-`define PIPE_READS(name) \
-  .name``_valid(name``_out_valid), .name``_ready(name``_out_ready), .name``_data(name``_out_data)
-`define PIPE_PORT(name) .name``_valid(name``_valid), .name``_ready(name``_ready), .name``_data(name``_data)
+`include "fifos.svh"
 
 module pipe (
     input  logic clk,
