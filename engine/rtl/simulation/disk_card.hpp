@@ -65,6 +65,7 @@ public:
     /// Outputs of board_top in the same cycle.
     void clock(const Outputs& outputs);
 
+    [[nodiscard]] bool has_loads() const { return !jobs_.empty(); }
     [[nodiscard]] bool is_idle() const { return jobs_.empty() && writes_.empty(); }
     [[nodiscard]] int begun() const { return begun_; }
     [[nodiscard]] int ended() const { return ended_; }  // including failed ones
