@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# synth.sh [BUILD]: synthesizes every block with Yosys, places and routes it for an iCE40 HX8K, and writes RESULTS.md.
+# synth.sh [BUILD]: synthesizes every block with Yosys (not memory/, whose RAMs an iCE40 lacks), places and routes it for an iCE40 HX8K, and writes RESULTS.md.
 # BUILD (build/release) is a build folder whose target rtl_board_constants is up to date. Needs yosys and nextpnr-ice40.
 # RAYSPACE_SYNTH_JOBS modules are processed at a time (1). Modules whose row is in BUILD/rtl_synth are not
 # repeated: delete that folder after a change.
@@ -43,7 +43,7 @@ if [ "${2:-}" = --module ]; then  # called by itself
   exit
 fi
 
-modules=$(find . -name '*.sv' ! -name pipe.sv -printf '%f\n' | sed 's/\.sv$//' | sort)
+modules=$(find . -name '*.sv' ! -name pipe.sv ! -name board_top.sv ! -path './memory/*' -printf '%f\n' | sed 's/\.sv$//' | sort)
 for module in $modules; do [ -f "$out/$module.row" ] || echo "$module"; done |
   xargs -P "${RAYSPACE_SYNTH_JOBS:-1}" -I{} "$rtl/$(basename "$0")" "$build" --module {}
 
