@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# synth.sh [BUILD]: synthesizes every block with Yosys (not memory/, whose RAMs an iCE40 lacks), places and routes it for an iCE40 HX8K, and writes RESULTS.md.
+# synth.sh [BUILD]: synthesizes every block with Yosys, places and routes it for an iCE40 HX8K, and writes RESULTS.md. The
+# modules of memory/ are left out: an iCE40 has no RAM that answers in the same cycle.
 # BUILD (build/release) is a build folder whose target rtl_board_constants is up to date. Needs yosys and nextpnr-ice40.
 # RAYSPACE_SYNTH_JOBS modules are processed at a time (1). Modules whose row is in BUILD/rtl_synth are not
 # repeated: delete that folder after a change.
