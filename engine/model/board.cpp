@@ -7,6 +7,8 @@ namespace {
 
 constexpr std::uint64_t kMaxRunCycles = std::uint64_t{1} << 40;
 
+}  // namespace
+
 // Pixel (i, j) is half (j & 1) of word i * ceil(height / 2) + (j >> 1).
 Image<Rgba8> unpack_host_image(const HostImage& words, const BoardView& view) {
     Image<Rgba8> image(view.width, view.height);
@@ -23,54 +25,24 @@ Image<Rgba8> unpack_host_image(const HostImage& words, const BoardView& view) {
     return image;
 }
 
-}  // namespace
-
 Board::Board(const BoardConfig& config, std::uint64_t shuffle_seed)
-    : top_(std::make_unique<BoardTop>(config, shuffle_seed)),
-      layout_(layout_of(config.limits.kind)),
-      map_(config.memory),
-      slots_(static_cast<std::size_t>(config.limits.objects)) {}
-
-Result<int> Board::take_slot(const RaySpaceObject& object) {
-    RS_TRY(layout_.drawable(object, top_->config.limits));
-    const auto free = std::find_if(slots_.begin(), slots_.end(), [](const Slot& s) { return !s.used; });
-    if (free == slots_.end()) {
-        return Error{object.name + ": all " + std::to_string(slots_.size()) +
-                     " object slots of the board are taken; evict an object first"};
-    }
-    RS_ASSIGN_OR_RETURN(const Placement placement, map_.allocate(layout_.words(object), object.name));
-    *free = {true, placement};
-    return static_cast<int>(free - slots_.begin());
-}
-
-ObjectImage Board::image_of(const RaySpaceObject& object, int slot) {
-    ObjectImage image = layout_.image(object, slots_[static_cast<std::size_t>(slot)].placement);
-    image.registers.serial = ++loads_;
-    return image;
-}
+    : top_(std::make_unique<BoardTop>(config, shuffle_seed)), slots_(config) {}
 
 Result<int> Board::place(const RaySpaceObject& object) {
-    RS_ASSIGN_OR_RETURN(const int slot, take_slot(object));
-    ObjectImage image = image_of(object, slot);
+    RS_ASSIGN_OR_RETURN(ObjectSlots::Taken taken, slots_.take(object));
     for (int channel = 0; channel < top_->channels(); ++channel) {
-        Sdram& sdram = top_->sdram(channel);
-        for (const MemorySegment& segment : image.segments) {
-            for (std::size_t n = 0; n < segment.words.size(); ++n) {
-                sdram.set_word(segment.address + static_cast<WordAddress>(n), segment.words[n]);
-            }
-        }
+        for (const MemorySegment& segment : taken.image.segments) top_->sdram(channel).set_words(segment);
     }
-    image.registers.valid = true;
-    top_->registers.objects[static_cast<std::size_t>(slot)] = image.registers;
-    return slot;
+    taken.image.registers.valid = true;
+    top_->registers.objects[static_cast<std::size_t>(taken.slot)] = taken.image.registers;
+    return taken.slot;
 }
 
 Result<int> Board::start_load(const RaySpaceObject& object) {
-    RS_ASSIGN_OR_RETURN(const int slot, take_slot(object));
-    ObjectImage image = image_of(object, slot);
-    top_->disk_controller.load(
-        {slot, image.registers, std::make_shared<const std::vector<MemorySegment>>(std::move(image.segments))});
-    return slot;
+    RS_ASSIGN_OR_RETURN(ObjectSlots::Taken taken, slots_.take(object));
+    top_->disk_controller.load({taken.slot, taken.image.registers,
+                                std::make_shared<const std::vector<MemorySegment>>(std::move(taken.image.segments))});
+    return taken.slot;
 }
 
 Status Board::finish_loads() {
@@ -81,9 +53,7 @@ Status Board::finish_loads() {
     for (; collected_loads_ < loads.size(); ++collected_loads_) {
         const DiskController::Load& load = loads[collected_loads_];
         if (!load.failed) continue;
-        Slot& slot = slots_[static_cast<std::size_t>(load.slot)];
-        map_.release(slot.placement);
-        slot = {};
+        slots_.release(load.slot);
         failed += (failed.empty() ? "slot " : ", ") + std::to_string(load.slot);
     }
     if (failed.empty()) return {};
@@ -92,7 +62,7 @@ Status Board::finish_loads() {
 }
 
 Status Board::evict(int slot) {
-    if (slot < 0 || slot >= static_cast<int>(slots_.size()) || !slots_[static_cast<std::size_t>(slot)].used) {
+    if (!slots_.is_taken(slot)) {
         return Error{"object slot " + std::to_string(slot) + " holds nothing to evict"};
     }
     if (top_->disk_controller.is_loading(slot)) {
@@ -107,8 +77,7 @@ Status Board::evict(int slot) {
                      " is being drawn; evict it when its rendering cycles are done"};
     }
     top_->registers.objects[static_cast<std::size_t>(slot)] = {};
-    map_.release(slots_[static_cast<std::size_t>(slot)].placement);
-    slots_[static_cast<std::size_t>(slot)] = {};
+    slots_.release(slot);
     return {};
 }
 
@@ -117,15 +86,7 @@ Result<BoardView> Board::view(int slot, const engine::ViewRegisters& registers) 
 }
 
 void Board::submit(std::vector<BoardView> views) {
-    HostProgram program;
-    for (const BoardView& view : views) {
-        const bool exists = view.object >= 0 && view.object < static_cast<int>(top_->registers.objects.size());
-        program.register_writes +=
-            register_writes(view, exists ? top_->registers.objects[static_cast<std::size_t>(view.object)].planes : 0);
-    }
-    ++program.register_writes;  // the start command
-    program.bank.views = std::move(views);
-    top_->programs.push_back(std::move(program));
+    top_->programs.push_back(host_program(std::move(views), top_->registers.objects));
 }
 
 RenderedCycle Board::collect(std::uint64_t cycle) {

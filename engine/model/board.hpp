@@ -5,8 +5,7 @@
 // Not thread-safe. The same calls give the same bits and the same cycles.
 
 #include "engine/model/board_top.hpp"
-#include "engine/model/layout/memory_map.hpp"
-#include "engine/model/layout/object_image.hpp"
+#include "engine/model/layout/object_slots.hpp"
 #include "rayspace/api/types/executor.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/object/ray_space_object.hpp"
@@ -41,6 +40,9 @@ struct BoardRun {
     Snapshot end;             // images of the last cycle arrived
 };
 
+// Image of a view from the words that the board wrote into host memory.
+Image<Rgba8> unpack_host_image(const HostImage& words, const BoardView& view);
+
 class Board {
 public:
     // `shuffle_seed` other than 0: blocks are ticked in random order (for tests; results must not change).
@@ -72,25 +74,16 @@ public:
 
     [[nodiscard]] BoardTop& top() { return *top_; }
     [[nodiscard]] const BoardTop& top() const { return *top_; }
-    [[nodiscard]] const MemoryMap& memory_map() const { return map_; }
+    [[nodiscard]] const MemoryMap& memory_map() const { return slots_.memory_map(); }
     [[nodiscard]] std::vector<const Block*> blocks() const;
     [[nodiscard]] Snapshot snapshot() const;
 
 private:
-    struct Slot {
-        bool used = false;
-        Placement placement;
-    };
-    Result<int> take_slot(const RaySpaceObject& object);
-    ObjectImage image_of(const RaySpaceObject& object, int slot);
     [[nodiscard]] RenderedCycle collect(std::uint64_t cycle);
 
     std::unique_ptr<BoardTop> top_;
-    const ObjectLayout& layout_;
-    MemoryMap map_;
-    std::vector<Slot> slots_;
+    ObjectSlots slots_;
     std::size_t collected_loads_ = 0;
-    std::uint32_t loads_ = 0;  // loads placed or started; gives the serial numbers of the objects
 };
 
 // Capabilities of a simulated board.

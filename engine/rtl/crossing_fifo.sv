@@ -16,7 +16,8 @@ module crossing_fifo #(
     input  logic out_rst,
     output logic out_valid,
     input  logic out_ready,
-    output logic [WIDTH-1:0] out_data
+    output logic [WIDTH-1:0] out_data,
+    output logic [$clog2(DEPTH+1)-1:0] out_count  // messages that the reader sees
 );
   localparam int PLACE_BITS = $clog2(DEPTH);
   localparam int BITS = PLACE_BITS + 1;
@@ -41,6 +42,11 @@ module crossing_fifo #(
   assign pop = out_valid && out_ready;
   assign pops_next = pop ? pops + ONE : pops;
   assign out_data = places[pops[PLACE_BITS-1:0]];
+  logic [BITS-1:0] pushes_seen;
+  generate
+    for (genvar n = 0; n < BITS; n = n + 1) assign pushes_seen[n] = ^pushes_seen_1[BITS-1:n];
+  endgenerate
+  assign out_count = pushes_seen - pops;
 
   always_ff @(posedge in_clk) begin
     if (in_rst) begin

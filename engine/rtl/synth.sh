@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# synth.sh [BUILD]: synthesizes every block with Yosys, places and routes it for an iCE40 HX8K, and writes RESULTS.md.
+# synth.sh [BUILD]: synthesizes every block with Yosys, places and routes it for an iCE40 HX8K, and writes RESULTS.md. The
+# modules of memory/ are left out: an iCE40 has no RAM that answers in the same cycle.
 # BUILD (build/release) is a build folder whose target rtl_board_constants is up to date. Needs yosys and nextpnr-ice40.
 # RAYSPACE_SYNTH_JOBS modules are processed at a time (1). Modules whose row is in BUILD/rtl_synth are not
 # repeated: delete that folder after a change.
@@ -52,7 +53,7 @@ if [ "${2:-}" = --module ]; then  # called by itself
 fi
 
 # Without memories, and without the modules that only connect others.
-modules=$(find . -name '*.sv' ! -path './memory/*' ! -name pipe.sv ! -name decompression.sv ! -name record_chain.sv \
+modules=$(find . -name '*.sv' ! -path './memory/*' ! -name board_top.sv ! -name pipe.sv ! -name decompression.sv ! -name record_chain.sv \
   -printf '%f\n' | sed 's/\.sv$//' | sort)
 for module in $modules; do [ -f "$out/$module.row" ] || echo "$module"; done |
   xargs -P "${RAYSPACE_SYNTH_JOBS:-1}" -I{} "$rtl/$(basename "$0")" "$build" --module {}

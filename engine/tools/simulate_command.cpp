@@ -4,6 +4,7 @@
 #include "engine/model/layout/object_image.hpp"
 #include "engine/model/report/report.hpp"
 #include "engine/model/report/waveform.hpp"
+#include "engine/rtl/board/rtl_board.hpp"
 #include "engine/tools/requested_views.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -36,6 +37,7 @@ struct SimulateArguments {
     bool diagram = false;
     bool print_config = false;
     bool force = false;
+    bool rtl = false;
 };
 
 // View of one of the objects.
@@ -74,8 +76,8 @@ Result<std::vector<SimulatedView>> simulated_views(const std::vector<RaySpaceObj
 }
 
 // Prints the board memory of an object, and the number of such objects that fit.
-void print_footprint(const RaySpaceObject& object, const model::Board& board) {
-    const BoardLimits& limits = board.top().config.limits;
+void print_footprint(const RaySpaceObject& object, const model::BoardConfig& config) {
+    const BoardLimits& limits = config.limits;
     const model::ObjectLayout& layout = model::layout_of(limits.kind);
     if (!layout.drawable(object, limits)) return;  // loading reports the reason
     const auto words = layout.words(object);
@@ -83,7 +85,7 @@ void print_footprint(const RaySpaceObject& object, const model::Board& board) {
     for (const std::uint64_t n : words) all += 8 * n;
     std::printf("%s: %llu bytes of board memory; memory for %llu such objects, %d slots\n",
                 printable(object.name).c_str(), static_cast<unsigned long long>(all),
-                static_cast<unsigned long long>(board.memory_map().copies(words)), limits.objects);
+                static_cast<unsigned long long>(model::MemoryMap(config.memory).copies(words)), limits.objects);
 }
 
 Result<std::vector<int>> load_objects(model::Board& board, const std::vector<RaySpaceObject>& objects, bool load) {
@@ -103,13 +105,12 @@ Result<std::vector<int>> load_objects(model::Board& board, const std::vector<Ray
     return slots;
 }
 
-Result<std::vector<std::vector<model::BoardView>>> rendering_cycles(const model::Board& board,
-                                                                    const std::vector<SimulatedView>& views,
+Result<std::vector<std::vector<model::BoardView>>> rendering_cycles(const std::vector<SimulatedView>& views,
                                                                     const std::vector<int>& slots, int per_cycle) {
     std::vector<std::vector<model::BoardView>> cycles;
     for (const SimulatedView& simulated : views) {
         if (cycles.empty() || cycles.back().size() == static_cast<std::size_t>(per_cycle)) cycles.emplace_back();
-        const Result<model::BoardView> view = board.view(slots[simulated.object], simulated.registers);
+        const Result<model::BoardView> view = model::board_view(simulated.registers, slots[simulated.object]);
         if (!view) {
             return Error{view.error().message + "; use --upright to make the requested views upright"};
         }
@@ -153,14 +154,18 @@ void print_channels(const model::BoardReport& report) {
     std::printf("\n");
 }
 
-void print_report(const model::BoardReport& report) {
-    std::printf("%s: %d rendering cycles, %d images, %lld pixels\n", report.config.c_str(), report.cycles,
-                report.images, static_cast<long long>(report.pixels));
-    std::printf("drawing: %.2f Mpixel/s, %.2f rendering cycles/s (%llu board cycles)\n", report.pixels_per_second / 1e6,
-                report.cycles_per_second, static_cast<unsigned long long>(report.render_cycles));
-    if (report.arrivals_per_second > 0) {
-        std::printf("arriving at the host: %.2f rendering cycles/s\n", report.arrivals_per_second);
+void print_rates(const std::string& config, const model::RenderRates& rates) {
+    std::printf("%s: %d rendering cycles, %d images, %lld pixels\n", config.c_str(), rates.cycles, rates.images,
+                static_cast<long long>(rates.pixels));
+    std::printf("drawing: %.2f Mpixel/s, %.2f rendering cycles/s (%llu board cycles)\n", rates.pixels_per_second / 1e6,
+                rates.cycles_per_second, static_cast<unsigned long long>(rates.render_cycles));
+    if (rates.arrivals_per_second > 0) {
+        std::printf("arriving at the host: %.2f rendering cycles/s\n", rates.arrivals_per_second);
     }
+}
+
+void print_report(const model::BoardReport& report) {
+    print_rates(report.config, report);
     print_interval("while rendering", report.rendering);
     print_interval("while delivering to the host's memory", report.delivering);
     print_channels(report);
@@ -171,7 +176,7 @@ void print_report(const model::BoardReport& report) {
 }
 
 // Compares all images with the definition, and writes them to the folder `output` unless it is empty.
-Status check_and_write_images(const model::BoardRun& run, const std::vector<SimulatedView>& views,
+Status check_and_write_images(const std::vector<model::RenderedCycle>& cycles, const std::vector<SimulatedView>& views,
                               const std::vector<RaySpaceObject>& stored, const std::string& output, bool force) {
     std::vector<Camera> cameras;
     cameras.reserve(views.size());
@@ -184,7 +189,7 @@ Status check_and_write_images(const model::BoardRun& run, const std::vector<Simu
     }
     std::size_t n = 0;
     std::size_t equal = 0;
-    for (const model::RenderedCycle& cycle : run.cycles) {
+    for (const model::RenderedCycle& cycle : cycles) {
         for (const Image<Rgba8>& image : cycle.images) {
             Image<Rgba8> defined(image.width(), image.height());
             reconstruct_scalar(stored[views[n].object], views[n].registers, defined);
@@ -196,23 +201,13 @@ Status check_and_write_images(const model::BoardRun& run, const std::vector<Simu
         }
     }
     std::printf("%zu of %zu images equal the definition bit for bit\n", equal, n);
-    if (equal != n) return Error{"the board's images differ from the definition; this is a defect of the model"};
+    if (equal != n) return Error{"the board's images differ from the definition; this is a defect of its model or RTL"};
     if (!folder) return {};
     RS_TRY(write_rig(folder->temporary_path() / kRigFileName, rig));
     return folder->commit();
 }
 
-Status run_simulate(const SimulateArguments& arguments) {
-    RS_ASSIGN_OR_RETURN(const model::BoardConfig config, model::read_board_config(arguments.config));
-    if (arguments.print_config) {
-        std::printf("%s\n", model::board_config_json(config).c_str());
-        return {};
-    }
-    model::Board board(config);
-    if (arguments.diagram) {
-        std::printf("%s", model::diagram_tables(board.top()).c_str());
-        return {};
-    }
+Status refuse_overwriting(const SimulateArguments& arguments) {
     std::vector<std::filesystem::path> used(arguments.objects.begin(), arguments.objects.end());
     used.emplace_back(arguments.views.poses);
     if (std::filesystem::is_regular_file(arguments.config)) used.emplace_back(arguments.config);
@@ -220,24 +215,26 @@ Status run_simulate(const SimulateArguments& arguments) {
         RS_TRY(refuse_overwriting_inputs(output, used));
         used.emplace_back(output);
     }
-    std::vector<RaySpaceObject> objects;
-    for (const std::string& path : arguments.objects) {
-        RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path));
-        objects.push_back(model::layout_of(config.limits.kind).as_rendered(std::move(object)));
-    }
-    for (const RaySpaceObject& object : objects) print_footprint(object, board);
-    RS_ASSIGN_OR_RETURN(const std::vector<int> slots, load_objects(board, objects, arguments.load));
-    RS_ASSIGN_OR_RETURN(const std::vector<SimulatedView> views, simulated_views(objects, arguments));
-    const int per_cycle = arguments.per_cycle > 0 ? arguments.per_cycle : config.limits.views_per_cycle;
-    RS_ASSIGN_OR_RETURN(const auto cycles, rendering_cycles(board, views, slots, per_cycle));
+    return {};
+}
 
+struct Simulation {
+    std::vector<RaySpaceObject> objects;  // as the board renders them
+    std::vector<SimulatedView> views;
+    int per_cycle = 0;
+};
+
+Result<std::vector<model::RenderedCycle>> render_with_model(const Simulation& simulation, model::Board& board,
+                                                            const SimulateArguments& arguments) {
+    RS_ASSIGN_OR_RETURN(const std::vector<int> slots, load_objects(board, simulation.objects, arguments.load));
+    RS_ASSIGN_OR_RETURN(const auto cycles, rendering_cycles(simulation.views, slots, simulation.per_cycle));
     std::unique_ptr<model::Waveform> waveform;
     if (!arguments.trace.empty()) {
         RS_ASSIGN_OR_RETURN(auto opened, model::Waveform::open(arguments.trace, board.top(), arguments.trace_cycles));
         waveform = std::move(opened);
     }
     const auto begin = std::chrono::steady_clock::now();
-    RS_ASSIGN_OR_RETURN(const model::BoardRun run, board.render(cycles));
+    RS_ASSIGN_OR_RETURN(model::BoardRun run, board.render(cycles));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (waveform) {
         RS_TRY(waveform->finish());
@@ -252,7 +249,55 @@ Status run_simulate(const SimulateArguments& arguments) {
         const std::string title = report.config + ", " + std::to_string(report.images) + " images";
         RS_TRY(write_file(arguments.chart, model::report_chart_svg(report, title)));
     }
-    return check_and_write_images(run, views, objects, arguments.output, arguments.force);
+    return std::move(run.cycles);
+}
+
+Result<std::vector<model::RenderedCycle>> render_with_rtl(const Simulation& simulation,
+                                                          const model::BoardConfig& config,
+                                                          const SimulateArguments& arguments) {
+    RS_ASSIGN_OR_RETURN(const std::unique_ptr<rtl::RtlBoard> board, rtl::make_rtl_board(config));
+    std::vector<int> slots;
+    for (const RaySpaceObject& object : simulation.objects) {
+        RS_ASSIGN_OR_RETURN(const int slot, arguments.load ? board->start_load(object) : board->place(object));
+        slots.push_back(slot);
+    }
+    RS_TRY(board->finish_loads());
+    RS_ASSIGN_OR_RETURN(const auto cycles, rendering_cycles(simulation.views, slots, simulation.per_cycle));
+    if (!arguments.trace.empty()) RS_TRY(board->trace(arguments.trace, arguments.trace_cycles));
+    const std::uint64_t before = board->board_cycles();
+    const auto begin = std::chrono::steady_clock::now();
+    RS_ASSIGN_OR_RETURN(std::vector<model::RenderedCycle> rendered, board->render(cycles));
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    print_rates(config.name + " in RTL", model::render_rates(rendered, config.clock_mhz));
+    std::printf("simulated at %.2f million board cycles a second\n",
+                double(board->board_cycles() - before) / seconds / 1e6);
+    return rendered;
+}
+
+Status run_simulate(const SimulateArguments& arguments) {
+    RS_ASSIGN_OR_RETURN(const model::BoardConfig config, model::read_board_config(arguments.config));
+    if (arguments.print_config) {
+        std::printf("%s\n", model::board_config_json(config).c_str());
+        return {};
+    }
+    model::Board board(config);
+    if (arguments.diagram) {
+        std::printf("%s", model::diagram_tables(board.top()).c_str());
+        return {};
+    }
+    RS_TRY(refuse_overwriting(arguments));
+    Simulation simulation;
+    for (const std::string& path : arguments.objects) {
+        RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path));
+        simulation.objects.push_back(model::layout_of(config.limits.kind).as_rendered(std::move(object)));
+        print_footprint(simulation.objects.back(), config);
+    }
+    RS_ASSIGN_OR_RETURN(simulation.views, simulated_views(simulation.objects, arguments));
+    simulation.per_cycle = arguments.per_cycle > 0 ? arguments.per_cycle : config.limits.views_per_cycle;
+    RS_ASSIGN_OR_RETURN(const std::vector<model::RenderedCycle> rendered,
+                        arguments.rtl ? render_with_rtl(simulation, config, arguments)
+                                      : render_with_model(simulation, board, arguments));
+    return check_and_write_images(rendered, simulation.views, simulation.objects, arguments.output, arguments.force);
 }
 
 }  // namespace
@@ -284,6 +329,9 @@ void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
         ->check(ends_in({".vcd"}));
     command->add_option("--trace-cycles", arguments->trace_cycles, "board cycles in the waveform")
         ->capture_default_str();
+    command->add_flag("--rtl", arguments->rtl,
+                      "run the board's RTL (engine/rtl) instead of its model; only prototype-2000, in builds with "
+                      "Verilator. --trace then records all signals");
     command->add_flag("--diagram", arguments->diagram,
                       "print blocks, ports and FIFOs as in model/DIAGRAM.md, and exit");
     command->add_flag("--print-config", arguments->print_config, "print all settings of CONFIG as JSON, and exit");
@@ -293,9 +341,14 @@ void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
         "  rs-engine simulate prototype-2000 a.rso b.rso c.rso --orbit 12 --per-cycle 3 --chart cycles.svg\n"
         "  rs-engine simulate compressed-2000 vase-board.rso --orbit 15 --size 256x256 --stats vase.json\n"
         "  rs-engine simulate parallel vase-shape.rso --orbit 4 --size 512x512 --upright\n"
+        "  rs-engine simulate prototype-2000 vase-raw.rso --orbit 2 --size 64x64 --rtl --trace vase.vcd\n"
         "  rs-engine simulate prototype-2000 --diagram");
     command->callback([arguments, &run] {
         const RequestedViews& views = arguments->views;
+        if (arguments->rtl && !(arguments->stats.empty() && arguments->chart.empty())) {
+            throw CLI::ValidationError("--rtl",
+                                       "the counts of --stats and --chart are those of the model; leave them out");
+        }
         if (!arguments->diagram && !arguments->print_config) {
             if (arguments->objects.empty()) throw CLI::RequiredError("OBJECT");
             if (views.orbit == 0 && views.poses.empty() && views.eye.empty()) {

@@ -93,28 +93,32 @@ OrderedJson json_of(const Interval& interval) {
 
 }  // namespace
 
+RenderRates render_rates(const std::vector<RenderedCycle>& cycles, double clock_mhz) {
+    RenderRates rates;
+    rates.cycles = static_cast<int>(cycles.size());
+    for (const RenderedCycle& cycle : cycles) {
+        rates.render_cycles += cycle.render_cycles();
+        rates.images += static_cast<int>(cycle.images.size());
+        for (const Image<Rgba8>& image : cycle.images) rates.pixels += static_cast<std::int64_t>(image.pixels().size());
+    }
+    const double clock_hz = 1e6 * clock_mhz;
+    if (rates.render_cycles > 0) {
+        rates.pixels_per_second = clock_hz * double(rates.pixels) / double(rates.render_cycles);
+        rates.cycles_per_second = clock_hz * rates.cycles / double(rates.render_cycles);
+    }
+    if (cycles.size() > 1) {
+        rates.arrivals_per_second =
+            clock_hz * (rates.cycles - 1) / double(cycles.back().arrived - cycles.front().arrived);
+    }
+    return rates;
+}
+
 BoardReport make_report(const Board& board, const BoardRun& run) {
     const BoardTop& top = board.top();
     BoardReport report;
     report.config = top.config.name;
     report.clock_mhz = top.config.clock_mhz;
-    report.cycles = static_cast<int>(run.cycles.size());
-    for (const RenderedCycle& cycle : run.cycles) {
-        report.render_cycles += cycle.render_cycles();
-        report.images += static_cast<int>(cycle.images.size());
-        for (const Image<Rgba8>& image : cycle.images) {
-            report.pixels += static_cast<std::int64_t>(image.pixels().size());
-        }
-    }
-    const double clock_hz = 1e6 * top.config.clock_mhz;
-    if (report.render_cycles > 0) {
-        report.pixels_per_second = clock_hz * double(report.pixels) / double(report.render_cycles);
-        report.cycles_per_second = clock_hz * report.cycles / double(report.render_cycles);
-    }
-    if (run.cycles.size() > 1) {
-        report.arrivals_per_second =
-            clock_hz * (report.cycles - 1) / double(run.cycles.back().arrived - run.cycles.front().arrived);
-    }
+    static_cast<RenderRates&>(report) = render_rates(run.cycles, report.clock_mhz);
     report.rendering = interval(board, run.begin, run.rendered);
     report.delivering = interval(board, run.first_rendered, run.end);
     report.board_cycles = run.end.board_cycles - run.begin.board_cycles;

@@ -42,19 +42,24 @@ struct ChannelReport {
                            // rows, turnarounds of the data bus and refresh
 };
 
-struct BoardReport {
-    std::string config;
-    double clock_mhz = 0;
+// Rates of rendering cycles.
+struct RenderRates {
     int cycles = 0;  // rendering cycles
     int images = 0;
     std::int64_t pixels = 0;
-    Interval rendering;               // until the last image was in the image buffer
-    Interval delivering;              // from the first finished rendering cycle until the last had arrived at the host
-    std::uint64_t board_cycles = 0;   // of the whole run
     std::uint64_t render_cycles = 0;  // sum of the board cycles in which a rendering cycle was drawn
     double pixels_per_second = 0;     // while drawing
     double cycles_per_second = 0;     // drawn
     double arrivals_per_second = 0;   // rendering cycles that arrive at the host per second; 0 for fewer than two
+};
+RenderRates render_rates(const std::vector<RenderedCycle>& cycles, double clock_mhz);
+
+struct BoardReport : RenderRates {
+    std::string config;
+    double clock_mhz = 0;
+    Interval rendering;              // until the last image was in the image buffer
+    Interval delivering;             // from the first finished rendering cycle until the last had arrived at the host
+    std::uint64_t board_cycles = 0;  // of the whole run
     std::vector<MemoryTraffic> memory;  // of channel 0, since the board was made
     MemoryController::Counters counters;
     std::vector<ChannelReport> channels;

@@ -81,4 +81,10 @@ void Sdram::set_word(WordAddress address, std::uint64_t value) {
     (*page)[address & ((1U << kPageBits) - 1U)] = value;
 }
 
+void Sdram::set_words(const MemorySegment& segment) {
+    for (std::size_t n = 0; n < segment.words.size(); ++n) {
+        set_word(segment.address + static_cast<WordAddress>(n), segment.words[n]);
+    }
+}
+
 }  // namespace rs::engine::model

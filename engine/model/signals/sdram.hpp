@@ -19,6 +19,12 @@ namespace rs::engine::model {
 
 using WordAddress = std::uint32_t;  // in words of 8 bytes
 
+// Consecutive words of memory.
+struct MemorySegment {
+    WordAddress address = 0;
+    std::vector<std::uint64_t> words;
+};
+
 enum class SdramCommand { activate, read, write, precharge, precharge_all, refresh };
 
 class Sdram {
@@ -44,6 +50,7 @@ public:
     // Access to a word without a clock: for testbenches, and for the data of read and write commands.
     [[nodiscard]] std::uint64_t word(WordAddress address) const;
     void set_word(WordAddress address, std::uint64_t value);
+    void set_words(const MemorySegment& segment);
 
     [[nodiscard]] const SdramTiming& timing() const { return timing_; }
     [[nodiscard]] const SdramShape& shape() const { return shape_; }

@@ -28,9 +28,10 @@ module host_bus (
     // The host: a program is waiting, and its number of register writes, at least 1.
     input  logic program_available,
     input  logic [15:0] program_writes,
+    output logic program_writes_register,  // in the last clock of a register write, whose address and data are on the bus
 
     // The bus. A target that is busy sets `pci_retry` in the last clock of TARGET. The header of an image comes in one
-    // clock, its words in two transfers, the low half first.
+    // clock, with the number of its words; words come in two transfers, the low half first.
     output logic [2:0] pci_state,
     input  logic pci_retry,
     output logic pci_head,
@@ -80,6 +81,7 @@ module host_bus (
   assign burst_ends = word_ends && burst_left == BURST_BITS'(1);
   assign image_ends = burst_ends && words_left == 18'd1;
   assign commands_valid = program_ends;
+  assign program_writes_register = state == REGISTER && ends && !stalls;
   assign commands_data = program_number;
   assign transferred_valid = image_ends && is_last_view;
   assign transferred_data = '0;
@@ -95,6 +97,7 @@ module host_bus (
       program_begun <= 1'b0;
       program_number <= 1'b0;
       words_left <= '0;
+      is_high_half <= 1'b0;
     end else begin
       if (host_wins) state <= REGISTER;
       if (board_wins) state <= GRANT;
@@ -113,6 +116,8 @@ module host_bus (
       end
       if (takes_head) words_left <= word.data[17:0];
       if (word_ends) words_left <= words_left - 18'd1;
+      if (board_wins) is_high_half <= 1'b0;
+      else if (pci_transfer) is_high_half <= !is_high_half;
     end
 
     if (!stalls) left <= left - ONE;
@@ -128,7 +133,5 @@ module host_bus (
     if (takes_head) is_last_view <= word.last_view;
     if (board_wins) burst_left <= next_burst;
     else if (word_ends) burst_left <= burst_left - BURST_BITS'(1);
-    if (board_wins) is_high_half <= 1'b0;
-    else if (pci_transfer) is_high_half <= !is_high_half;
   end
 endmodule

@@ -55,4 +55,31 @@ inline Image<Rgba8> defined(const RaySpaceObject& object, const engine::ViewRegi
     return image;
 }
 
+struct Scene {
+    RaySpaceObject object;
+    std::vector<std::vector<engine::ViewRegisters>> cycles;
+};
+
+// Views of `side` pixels that are filled by an object whose images have the same size.
+inline Scene filled(int side, int views, int cycles) {
+    Scene scene{rs::test::ring_object({.views = 36,
+                                       .width = side,
+                                       .height = side,
+                                       .fl_px = side * 1.5,
+                                       .planes = 12,
+                                       .x_cells = 64,
+                                       .u_cells = 64}),
+                {}};
+    for (int c = 0; c < cycles; ++c) {
+        scene.cycles.emplace_back();
+        for (int v = 0; v < views; ++v) {
+            const auto prepared =
+                prepare_view(scene.object, upright_at(0.1 * v + 0.03 * c, 3.5, 0, 0.95, side, side));
+            EXPECT_TRUE(prepared.ok());
+            scene.cycles.back().push_back(*prepared);
+        }
+    }
+    return scene;
+}
+
 }  // namespace rs::engine::model::test

@@ -57,6 +57,7 @@ private:
         module_.out_ready = wants;
         module_.eval();
         if ((module_.out_valid != 0) != fifo_.can_pop()) return "valid differs";
+        if (module_.out_count != fifo_.visible()) return "count differs";
         if (fifo_.can_pop() && read_port(module_.out_data, 64) != pack(fifo_.front())) return "data differ";
         if (wants && fifo_.can_pop()) fifo_.pop();
         fifo_.commit_reader();

@@ -1,4 +1,5 @@
 #include "engine/model/blocks/memory/disk_controller.hpp"
+#include "engine/rtl/simulation/disk_card.hpp"
 #include "tests/engine/rtl/cosimulation.hpp"
 #include "tests/engine/rtl/random_registers.hpp"
 
@@ -9,37 +10,6 @@
 
 namespace rs::engine::rtl {
 namespace {
-
-// The drive: sectors come off the platter into its buffer.
-class Drive {
-public:
-    explicit Drive(const model::DiskSettings& settings) : settings_(settings) {}
-
-    void begin(std::uint64_t now, std::uint64_t bytes) {
-        all_ = bytes;
-        read_ = sent_ = 0;
-        next_ = now + settings_.start_cycles + static_cast<std::uint64_t>(settings_.media_cycles_per_sector);
-        has_stalled_ = false;
-    }
-    void clock(std::uint64_t now) {
-        constexpr std::uint64_t kSector_bytes = 512;
-        const std::uint64_t room = static_cast<std::uint64_t>(settings_.buffer_sectors) * kSector_bytes;
-        if (now < next_ || read_ >= all_ || read_ - sent_ + kSector_bytes > room) return;
-        read_ += kSector_bytes;
-        next_ = now + static_cast<std::uint64_t>(settings_.media_cycles_per_sector);
-        if (has_stalled_ || settings_.stall_after_bytes == 0 || read_ < settings_.stall_after_bytes) return;
-        next_ += settings_.stall_cycles;
-        has_stalled_ = true;
-    }
-    void take() { sent_ += 2; }
-    [[nodiscard]] bool has_data() const { return read_ > sent_; }
-    [[nodiscard]] std::uint64_t sent_bytes() const { return sent_; }
-
-private:
-    model::DiskSettings settings_;
-    std::uint64_t all_ = 0, read_ = 0, sent_ = 0, next_ = 0;
-    bool has_stalled_ = false;
-};
 
 // Fast disks, of which some stop delivering for longer than the timeout.
 model::DiskSettings random_disk(Random& random) {
@@ -84,18 +54,6 @@ private:
         jobs_.push_back(job);
         block_.load(std::move(job));
     }
-    // The word of object memory that has byte `at` of a load.
-    static model::MemoryWrite word_at(const model::LoadJob& job, std::uint64_t at) {
-        std::uint64_t word = at / 8;
-        for (const model::MemorySegment& segment : *job.segments) {
-            if (word < segment.words.size()) {
-                const bool is_last = &segment == &job.segments->back() && word + 1 == segment.words.size();
-                return {segment.address + static_cast<model::WordAddress>(word), segment.words[word], is_last};
-            }
-            word -= segment.words.size();
-        }
-        return {};
-    }
     model::Block& block() override { return block_; }
     void look_up() override {
         Module& module = this->module_;
@@ -116,9 +74,7 @@ private:
         Module& module = this->module_;
         if (module.drive_takes != 0) drive_.take();
         if (module.load_begins != 0) {
-            std::uint64_t bytes = 0;
-            for (const model::MemorySegment& segment : *jobs_.front().segments) bytes += 8 * segment.words.size();
-            drive_.begin(now_, bytes);
+            drive_.begin(now_, bytes_of(jobs_.front()));
             is_loading_ = true;
             ++begun_;
         }

@@ -10,6 +10,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <sstream>
 
 namespace rs::engine::model {
 namespace {
@@ -38,6 +40,69 @@ TEST(SimulateTool, RendersWritesAndCompares) {
     EXPECT_EQ(nlohmann::json::parse(stats)["rendering_cycles"], 3);
     EXPECT_GT(std::filesystem::file_size(path("chart.svg")), 1000U);
     EXPECT_GT(std::filesystem::file_size(path("run.vcd")), 1000U);
+}
+
+// Names of the signals of a waveform, as GTKWave writes them.
+std::set<std::string> signals_of(const std::string& vcd) {
+    std::set<std::string> names;
+    std::string scope, word, line;
+    std::ifstream file(vcd);
+    while (std::getline(file, line)) {
+        std::istringstream words(line);
+        words >> word;
+        if (word == "$scope") {
+            words >> word >> word;
+            scope += word + ".";
+        } else if (word == "$upscope") {
+            scope.erase(scope.rfind('.', scope.size() - 2) + 1);
+        } else if (word == "$var") {
+            std::string name, bits;
+            words >> word >> word >> word >> name >> bits;
+            names.insert(scope + name + (bits == "$end" ? "" : bits));
+        }
+    }
+    return names;
+}
+
+TEST(SimulateTool, RunsTheRtlWithTheCyclesOfTheModel) {
+    const rs::test::TemporaryFolder scratch;
+    const RaySpaceObject object = rs::test::ring_object({.views = 12, .planes = 6, .x_cells = 32, .u_cells = 32});
+    const std::string file = (scratch / "ring.rso").string();
+    ASSERT_TRUE(write_object(file, object).ok());
+    const std::string vcd = (scratch / "run.vcd").string();
+    const auto run = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"simulate", "prototype-2000", file, file, "--orbit", "3", "--size", "40x32",
+                                         "--per-cycle", "2", "--trace-cycles", "100"});
+        return run_tool(scratch.path(), "rs-engine", options);
+    };
+    EXPECT_EQ(run({"--rtl", "--stats", "stats.json"}).exit_code, 2);
+    const ToolRun rtl = run({"--rtl", "--load", "--trace", vcd});
+    if (rtl.exit_code != 0) {  // a build without Verilator
+        EXPECT_NE(rtl.err.find("RAYSPACE_RTL=ON"), std::string::npos) << rtl.err;
+        return;
+    }
+    EXPECT_NE(rtl.out.find("6 of 6 images equal the definition bit for bit"), std::string::npos) << rtl.out;
+    const auto rates = [](const std::string& out) {
+        const std::size_t first = out.find("drawing: ");
+        return out.substr(first, out.find('\n', out.find("arriving")) - first);
+    };
+    EXPECT_EQ(rates(rtl.out), rates(run({"--load"}).out));
+
+    const std::set<std::string> signals = signals_of(vcd);
+    std::ifstream view(std::string(RAYSPACE_SOURCE_DIR) + "/engine/rtl/board.gtkw");
+    int shown = 0;
+    for (std::string line; std::getline(view, line);) {
+        const std::string name = line.substr(line.find(' ') + 1);  // behind "+{alias} "
+        if (name.rfind("TOP.", 0) != 0 || line[0] == '[') continue;
+        EXPECT_TRUE(signals.contains(name)) << line;
+        ++shown;
+    }
+    EXPECT_GT(shown, 40);
+
+    const ToolRun other =
+        run_tool(scratch.path(), "rs-engine", {"simulate", "prototype-2000-pci-x", file, "--orbit", "1", "--rtl"});
+    EXPECT_EQ(other.exit_code, 1);
+    EXPECT_NE(other.err.find("verilated for prototype-2000"), std::string::npos) << other.err;
 }
 
 TEST(SimulateTool, RendersCompressedImages) {

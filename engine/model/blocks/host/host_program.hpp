@@ -17,6 +17,9 @@ struct HostProgram {
     int register_writes = 0;  // 32-bit bus writes that transfer it
 };
 
+// Program of a rendering cycle, with as many register writes as the planes of the views' objects need.
+HostProgram host_program(std::vector<BoardView> views, const std::vector<ObjectRegisters>& objects);
+
 // Programs by number of their start command. Finished programs are dropped, so that memory stays bounded over many
 // cycles.
 class HostPrograms {

@@ -14,12 +14,6 @@
 
 namespace rs::engine::model {
 
-// Consecutive words of object memory.
-struct MemorySegment {
-    WordAddress address = 0;
-    std::vector<std::uint64_t> words;
-};
-
 struct LoadJob {
     int slot = 0;
     ObjectRegisters registers;
