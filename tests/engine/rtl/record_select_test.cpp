@@ -1,4 +1,5 @@
 #include "engine/model/blocks/decompression/record_select.hpp"
+#include "engine/model/blocks/decompression/block_motion.hpp"
 #include "tests/engine/rtl/coded_registers.hpp"
 #include "tests/engine/rtl/cosimulation.hpp"
 
