@@ -73,8 +73,7 @@ inline Scene filled(int side, int views, int cycles) {
     for (int c = 0; c < cycles; ++c) {
         scene.cycles.emplace_back();
         for (int v = 0; v < views; ++v) {
-            const auto prepared =
-                prepare_view(scene.object, upright_at(0.1 * v + 0.03 * c, 3.5, 0, 0.95, side, side));
+            const auto prepared = prepare_view(scene.object, upright_at(0.1 * v + 0.03 * c, 3.5, 0, 0.95, side, side));
             EXPECT_TRUE(prepared.ok());
             scene.cycles.back().push_back(*prepared);
         }
