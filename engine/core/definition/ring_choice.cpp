@@ -102,17 +102,19 @@ RingChoice choose_rings(const RaySpaceObject& object, const glm::dvec3& viewpoin
     const auto nearest = std::min_element(distances.begin(), distances.end());
     RingChoice choice;
     choice.nearest = static_cast<int>(nearest - distances.begin());
-    if (object.rings.size() < 2) return choice;
-    const double to_nearest = *nearest;
-    *nearest = std::numeric_limits<double>::max();
-    const auto second = std::min_element(distances.begin(), distances.end());
-    const auto beside = static_cast<std::size_t>(second - distances.begin());
-    const double range =
-        mixing_range(object, object.rings[static_cast<std::size_t>(choice.nearest)], object.rings[beside], viewpoint);
-    const double of_second = range - *second;
-    if (of_second <= 0) return choice;
-    choice.weight_q8 = static_cast<int>(std::lround(256 * of_second / (range - to_nearest + of_second)));
-    if (choice.weight_q8 > 0) choice.second = static_cast<int>(beside);
+    const Ring& nearest_ring = object.rings[static_cast<std::size_t>(choice.nearest)];
+    double to_second = std::numeric_limits<double>::max();
+    for (std::size_t r = 0; r < object.rings.size(); ++r) {
+        if (static_cast<int>(r) == choice.nearest || distances[r] >= to_second) continue;
+        const double range = mixing_range(object, nearest_ring, object.rings[r], viewpoint);
+        const double of_second = range - distances[r];
+        if (of_second <= 0) continue;
+        const long weight_q8 = std::lround(256 * of_second / (range - *nearest + of_second));
+        if (weight_q8 == 0) continue;
+        to_second = distances[r];
+        choice.second = static_cast<int>(r);
+        choice.weight_q8 = static_cast<int>(weight_q8);
+    }
     return choice;
 }
 

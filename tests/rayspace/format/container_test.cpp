@@ -100,7 +100,7 @@ TEST(Container, LayoutIsTheDocumentedOne) {
     const unsigned char magic[] = {0x89, 'R', 'S', 'O', '\r', '\n', 0x1A, '\n'};
     std::memcpy(expected.data(), magic, 8);
     test::put_number(expected, 8, 2, 2);
-    test::put_number(expected, 10, 3, 2);
+    test::put_number(expected, 10, 4, 2);
     test::put_number(expected, 12, 1, 4);
     test::put_number(expected, 16, 48, 8);
     test::put_number(expected, 24, 96, 8);
