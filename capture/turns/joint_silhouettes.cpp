@@ -36,7 +36,7 @@ constexpr double kRoll_rad = radians(0.7);
 constexpr double kPan_rad = radians(0.7);
 constexpr double kAzimuth_rad = radians(6);
 constexpr double kLogSlant = 0.05;
-constexpr double kShift = 0.03;
+constexpr double kLensShift = 0.03;
 
 bool has_free_camera(const SilhouettesToFit& turn) {
     return turn.freedom == SilhouetteFreedom::kCamera || turn.freedom == SilhouetteFreedom::kAll;
@@ -248,7 +248,7 @@ public:
                 CameraAim aim = aim_of(of.turn, middle_);
                 aim.tilt_rad = turn.model.pose.tilt_rad;
                 aim.slant *= std::exp(kLogSlant * z(next + 1));
-                aim.shift += kShift * z(next + 2);
+                aim.shift += kLensShift * z(next + 2);
                 turn.placement = aimed_placement(azimuth_rad(of.turn.placement) + kAzimuth_rad * z(next), aim, middle_);
                 next += 3;
             }

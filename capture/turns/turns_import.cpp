@@ -93,7 +93,7 @@ bool has_same_photos(const SegmentedTurn& a, const SegmentedTurn& b) {
 
 // Calibrates a turn alone; without a result, its registration finds the camera.
 Status calibrate_alone(WorkingTurn& turn, const ImportOptions& options, CalibrationChoice choice, Progress* progress) {
-    RigRequest request = options;
+    RigRequest request = static_cast<const RigRequest&>(options);
     request.calibration = choice;
     Result<FoundRig> found =
         find_rig(request, turn.prepared.intake.folder, turn.prepared.turn, turn.foregrounds, progress);

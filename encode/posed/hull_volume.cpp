@@ -13,10 +13,10 @@
 namespace rs::encode {
 namespace {
 
-constexpr float kFarthest_px = 24;         // distances from contours are truncated
-constexpr double kMaxContradicted = 0.01;  // share of the object, at which mattes agree
-constexpr int kSearchVoxels = 64;          // of hulls that are only compared
-constexpr double kLeastSeen = 0.4;         // share of the photos whose frames contain a point of the object
+constexpr float kFarthest_px = 24;               // distances from contours are truncated
+constexpr double kMaxContradictedMattes = 0.01;  // share of the object, at which mattes agree
+constexpr int kSearchVoxels = 64;                // of hulls that are only compared
+constexpr double kLeastSeen = 0.4;               // share of the photos whose frames contain a point of the object
 constexpr int kBlock_voxels = 8;
 constexpr int kMaxTolerated = 40;  // photos
 
@@ -224,7 +224,7 @@ Result<CarvedHull> carve_hull(std::span<const PosedPhoto> photos, const HullOpti
             box = *finer_box;
             best = CarvedHull{std::move(finer), tolerance, contradicted};
         }
-        if (contradicted <= kMaxContradicted) break;
+        if (contradicted <= kMaxContradictedMattes) break;
     }
     if (!best) return no_common_volume();
     RS_TRY(check_cameras(photos, best->volume));
