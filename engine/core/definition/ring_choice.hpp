@@ -3,7 +3,8 @@
 // the weight by which their images are mixed (mix_rings.hpp). Floating point, before the normative arithmetic.
 //
 // A ring covers the directions of its views and of the gaps that have lines. Its distance from a viewpoint is the angle
-// from the viewpoint's direction to the nearest one that it covers.
+// from the viewpoint's direction to the nearest one that it covers. From another distance than the ring's cameras the
+// object's edge is seen along rays beside the viewpoint's direction; an arc must cover these, too.
 
 #include "rayspace/object/ray_space_object.hpp"
 
@@ -17,7 +18,7 @@ struct RingChoice {
     int weight_q8 = 0;  // of the second ring, 0..128
 };
 
-/// `viewpoint` is in the object's axes; its length does not matter. The object has at least one ring.
+/// `viewpoint` is in the object's axes and radii. The object has at least one ring.
 RingChoice choose_rings(const RaySpaceObject& object, const glm::dvec3& viewpoint);
 
 }  // namespace rs::engine
