@@ -105,6 +105,9 @@ Result<std::vector<DrawnView>> CycleExecutor::draw_unmixed(const std::vector<Pre
 }
 
 Result<std::vector<DrawnView>> CycleExecutor::draw(const std::vector<PreparedView>& views) {
+    if (std::ranges::none_of(views, [](const PreparedView& view) { return view.second.has_value(); })) {
+        return draw_unmixed(views);
+    }
     std::vector<PreparedView> all = views;
     for (std::size_t v = 0; v < views.size(); ++v) {
         if (!views[v].second) continue;

@@ -97,6 +97,7 @@ double mixing_range(const RaySpaceObject& object, const Ring& nearest, const Rin
 }  // namespace
 
 RingChoice choose_rings(const RaySpaceObject& object, const glm::dvec3& viewpoint) {
+    if (object.rings.size() == 1) return {};  // traced scenes choose for every ray
     std::vector<double> distances;
     for (const Ring& ring : object.rings) distances.push_back(distance_to(ring, viewpoint));
     const auto nearest = std::min_element(distances.begin(), distances.end());

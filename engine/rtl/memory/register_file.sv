@@ -198,7 +198,7 @@ module register_file (
                  (writes_sy && !fits_34) || ((writes_b || writes_a || writes_c) && !fits_29) ||
                  ((writes_n0 || writes_nx || writes_t0 || writes_tx) && !fits_36) || (has_end && leaves_range);
 
-  // Of the program that is written.
+  // State of the program that the host writes.
   logic is_sound, starts;
   logic [board::OBJECTS-1:0] used_objects, object_is_valid;
   logic [4:0] written_views;
