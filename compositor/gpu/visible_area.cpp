@@ -2,6 +2,7 @@
 
 #include "compositor/gpu/shader/reconstruction_shader.hpp"
 #include "engine/core/definition/cell_march.hpp"
+#include "engine/core/definition/effective_depth.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -28,29 +29,41 @@ struct ColumnSetup {
     SetupTexel around;
 };
 
-// Band coordinates (q12) at the foot of a ray, at depth 0 and behind the last step of its march: all that the shader
-// looks up lie between these. See CellMarch; the middle of the last step is below depth 320.
+// Band coordinates (q12) at the foot of a ray, at the first and at the last depth: all that the shader looks up are
+// between these. See CellMarch.
 struct RayBands {
     std::int32_t foot = 0;
-    std::int32_t zero = 0;
+    std::int32_t first = 0;
     std::int32_t last = 0;
-    [[nodiscard]] std::int32_t lowest() const { return std::min({foot, zero, last}); }
-    [[nodiscard]] std::int32_t highest() const { return std::max({foot, zero, last}); }
+    [[nodiscard]] std::int32_t lowest() const { return std::min({foot, first, last}); }
+    [[nodiscard]] std::int32_t highest() const { return std::max({foot, first, last}); }
 };
 
-RayBands bands_of_ray(const SetupTexel& head, const ShapeMap& shape, std::int32_t b_q20, std::int32_t rise_q24) {
-    constexpr int kEndOfMarch = 320;
+// Effective depths of the first and the last depth.
+struct DepthRange {
+    explicit DepthRange(const ShapeMap& shape) {
+        if (shape.empty()) return;
+        const engine::EffectiveDepth depths(shape);
+        first_q3 = depths.at(0);
+        last_q3 = depths.at(engine::EffectiveDepth::kDepths - 1);
+    }
+    std::int32_t first_q3 = 0;
+    std::int32_t last_q3 = 0;
+};
+
+RayBands bands_of_ray(const SetupTexel& head, const ShapeMap& shape, const DepthRange& depths, std::int32_t b_q20,
+                      std::int32_t rise_q24) {
     const std::int32_t h_q16 = (b_q20 >> 4) + multiply_shift(head[1], rise_q24, 28);
     const std::int32_t slope_q20 = multiply_shift(rise_q24, head[2], 24);
     const std::int32_t reference_q20 = multiply_shift(h_q16 - (shape.reference_height_q20 >> 4), head[3], 16);
     const std::int32_t per_radius_q20 = multiply_shift(slope_q20 - reference_q20, shape.bands_per_unit_q12, 12);
     RayBands bands;
     bands.foot = multiply_shift(h_q16 - (shape.h_low_q20 >> 4), shape.bands_per_unit_q12, 16);
-    bands.zero = bands.foot + multiply_shift(per_radius_q20, shape.depth_low_q20, 28);
     const std::int32_t per_depth_q20 =
         std::clamp(multiply_shift(per_radius_q20, shape.depth_step_q24, 24), -engine::CellMarch::kMaxPerDepth_q20,
                    engine::CellMarch::kMaxPerDepth_q20);
-    bands.last = bands.zero + ((kEndOfMarch * per_depth_q20) >> 8);
+    bands.first = bands.foot + ((depths.first_q3 * (per_depth_q20 >> 3)) >> 8);
+    bands.last = bands.foot + ((depths.last_q3 * (per_depth_q20 >> 3)) >> 8);
     return bands;
 }
 
@@ -78,7 +91,8 @@ bool needs_surface(const SetupTexel& head) {
 // Rows of the column of an upright view that can show something.
 class VisibleRows {
 public:
-    VisibleRows(const engine::ViewRegisters& registers, const ShapeMap& shape) : registers_(registers), shape_(shape) {}
+    VisibleRows(const engine::ViewRegisters& registers, const ShapeMap& shape, const DepthRange& depths)
+        : registers_(registers), shape_(shape), depths_(depths) {}
 
     [[nodiscard]] PixelRange of(const ColumnSetup& setup, int column) const {
         const auto kind = static_cast<SetupKind>(setup.head[0] & 3);
@@ -87,12 +101,12 @@ public:
         if (kind == SetupKind::kPlane) return {setup.view[2], setup.view[3]};
         if (!needs_surface(setup.head)) return all;
         const auto bands_at = [&](int row) {
-            return bands_of_ray(setup.head, shape_, registers_.b_q20, registers_.rise_q24(column, row));
+            return bands_of_ray(setup.head, shape_, depths_, registers_.b_q20, registers_.rise_q24(column, row));
         };
         const RayBands top = bands_at(0);
         const RayBands bottom = bands_at(registers_.height - 1);
-        const bool falls = top.foot >= bottom.foot && top.zero >= bottom.zero && top.last >= bottom.last;
-        const bool rises = top.foot <= bottom.foot && top.zero <= bottom.zero && top.last <= bottom.last;
+        const bool falls = top.foot >= bottom.foot && top.first >= bottom.first && top.last >= bottom.last;
+        const bool rises = top.foot <= bottom.foot && top.first <= bottom.first && top.last <= bottom.last;
         if (!falls && !rises) return all;
         const SurfaceBands surfaces = surface_bands(setup.around);
         const auto above = [&](int row) { return bands_at(row).lowest() > surfaces.highest; };
@@ -126,6 +140,7 @@ private:
 
     const engine::ViewRegisters& registers_;
     const ShapeMap& shape_;
+    DepthRange depths_;
 };
 
 // The set-up of a pixel of `block`, in its row of set-ups.
@@ -142,13 +157,14 @@ struct ViewOfSetups {
     int first_row;
     const engine::ViewRegisters& registers;
     const ShapeMap& shape;
+    DepthRange depths;
 
     [[nodiscard]] bool may_show(int column, int row) const {
         const ColumnSetup setup = setup_at(setups, registers.width, row - first_row, column);
         if (static_cast<SetupKind>(setup.head[0] & 3) == SetupKind::kNoRay) return false;
         if (!needs_surface(setup.head)) return true;
         return surface_bands(setup.around)
-            .meet(bands_of_ray(setup.head, shape, registers.b_q20, registers.rise_q24(column, row)));
+            .meet(bands_of_ray(setup.head, shape, depths, registers.b_q20, registers.rise_q24(column, row)));
     }
 
     // Rows of a tile of a tilted view: all or none.
@@ -163,7 +179,7 @@ struct ViewOfSetups {
 
     // Rows of some columns of an upright view, within `rows`.
     [[nodiscard]] PixelRange rows_of_columns(const PixelRange& columns, const PixelRange& rows) const {
-        const VisibleRows visible(registers, shape);
+        const VisibleRows visible(registers, shape, depths);
         PixelRange all{rows.end, rows.begin};
         for (int column = columns.begin; column < columns.end; ++column) {
             const PixelRange shown = visible.of(setup_at(setups, registers.width, 0, column), column);
@@ -192,7 +208,7 @@ std::vector<PixelRect> visible_rectangles(std::span<const SetupTexel> setups, in
                                           const engine::ViewRegisters& registers, const ShapeMap& shape,
                                           const PixelRect& block) {
     std::vector<PixelRect> rectangles;
-    const ViewOfSetups view{setups, first_row, registers, shape};
+    const ViewOfSetups view{setups, first_row, registers, shape, DepthRange(shape)};
     const bool upright = registers.upright();
     const int right = block.left + block.width;
     const int bottom = block.top + block.height;

@@ -132,6 +132,7 @@ PipeMemoryBits pipe_memory_bits(ParallelPipe& pipe) {
     bits.cells = CellMarch::kCellBits;
     bits.held_words = CellMarch::kHeldBits;
     bits.march_pixels = CellMarch::kPixelBits;
+    bits.effective_depths = CellMarch::kDepthBits;
     bits.rim_pixels = SurfaceBlend::kKeptBits;
     bits.texels = static_cast<std::size_t>(TexelCache::kBits);
     bits.patches = static_cast<std::size_t>(PatchStore::kBits);

@@ -129,10 +129,11 @@ struct ParallelPipe {
 
 // Bits of block RAM in a pipe: codebooks, cells, texels, patches, and the FIFOs that are deep enough to use block RAM.
 struct PipeMemoryBits {
-    std::size_t books = 0, cells = 0, held_words = 0, march_pixels = 0, rim_pixels = 0, texels = 0, patches = 0,
-                columns = 0, fifos = 0;
+    std::size_t books = 0, cells = 0, held_words = 0, march_pixels = 0, effective_depths = 0, rim_pixels = 0,
+                texels = 0, patches = 0, columns = 0, fifos = 0;
     [[nodiscard]] std::size_t all() const {
-        return books + cells + held_words + march_pixels + rim_pixels + texels + patches + columns + fifos;
+        return books + cells + held_words + march_pixels + effective_depths + rim_pixels + texels + patches + columns +
+               fifos;
     }
 };
 PipeMemoryBits pipe_memory_bits(ParallelPipe& pipe);

@@ -140,18 +140,24 @@ const tests = {
     const page = await openLoaded(onDisk());
     await page.locator(partOf("stage")).focus();
     const start = await visitorOf(page);
-    const hold = async (key, ms = 400) => {
+    // Holds a key until the visitor has moved far enough: software rendering may need seconds for a frame.
+    const hold = async (key, isFarEnough, what) => {
+      const deadline = Date.now() + 20000;
       await page.keyboard.down(key);
-      await page.waitForTimeout(ms);
+      let now = await visitorOf(page);
+      while (!isFarEnough(now) && Date.now() < deadline) {
+        await page.waitForTimeout(50);
+        now = await visitorOf(page);
+      }
       await page.keyboard.up(key);
+      assert.ok(isFarEnough(now), what);
       return visitorOf(page);
     };
-    const forward = await hold("w");
-    assert.ok(forward.eye[2] < start.eye[2] - 0.1, "W walks forward");
+    const forward = await hold("w", ({ eye }) => eye[2] < start.eye[2] - 0.1, "W walks forward");
     assert.equal(forward.eye[1], start.eye[1], "at the same height");
-    assert.ok((await hold("ArrowDown")).eye[2] > forward.eye[2] + 0.1, "arrows walk");
-    assert.ok((await hold("d")).eye[0] > forward.eye[0] + 0.1, "D walks to the right");
-    assert.ok((await hold("ArrowLeft")).heading > 0.1, "arrows turn");
+    await hold("ArrowDown", ({ eye }) => eye[2] > forward.eye[2] + 0.1, "arrows walk");
+    await hold("d", ({ eye }) => eye[0] > forward.eye[0] + 0.1, "D walks to the right");
+    await hold("ArrowLeft", ({ heading }) => heading > 0.1, "arrows turn");
     const before = await visitorOf(page);
     await page.mouse.move(200, 150);
     await page.mouse.down();

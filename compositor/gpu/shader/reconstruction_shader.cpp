@@ -34,8 +34,9 @@ uniform int bands;
 uniform int reference_q16;    // H_ref >> 4
 uniform int h_low_q16;        // h_low >> 4
 uniform int bands_per_unit;   // q12
-uniform int depth_low;        // q20
 uniform int depth_step;       // q24
+uniform int depth_low;        // s_low, q3
+uniform int reference_depth;  // s_ref, q3
 uniform int jump;
 uniform int thickness;
 
@@ -200,14 +201,16 @@ Surfaces surfaces_at(Columns columns, int band_q12) {
 struct Ray {
     int rise;     // q24
     int at_foot;  // q12
-    int zero;     // q12
-    int per_d;    // q20
+    int per_d;    // q17
     int size;     // of a step, whole steps of depth
     bool marches;
 };
 
 int band_at(Ray ray, int d) {
-    return ray.zero + ((d * ray.per_d) >> 8);
+    int s = depth_low + 8 * min(d, 255);
+    int divisor = max(reference_depth + s, (reference_depth + 1) >> 1);
+    int effective = clamp(s - divide(s * s, divisor), -4095, 4095);
+    return ray.at_foot + ((effective * ray.per_d) >> 8);
 }
 
 Ray follow_ray(int rise, int lambda_foot, int inverse_r, int inverse_rho) {
@@ -218,9 +221,9 @@ Ray follow_ray(int rise, int lambda_foot, int inverse_r, int inverse_rho) {
     Ray ray;
     ray.rise = rise;
     ray.at_foot = multiply_shift(h - h_low_q16, bands_per_unit, 16);
-    ray.zero = ray.at_foot + multiply_shift(drift, depth_low, 28);
-    ray.per_d = clamp(multiply_shift(drift, depth_step, 24), -(1 << 22), 1 << 22);
-    int steps = min((abs(ray.per_d) >> 11) + 1, 64);
+    int per_d = clamp(multiply_shift(drift, depth_step, 24), -(1 << 22), 1 << 22);
+    ray.per_d = per_d >> 3;
+    int steps = min((abs(per_d) >> 11) + 1, 64);
     ray.size = divide(256, steps);
     ray.marches = steps > 1;
     return ray;
@@ -236,20 +239,34 @@ struct March {
     int end;
 };
 
+// Depth with the effective depth e (q3), estimated: inverse of the formula in band_at.
+float depth_at(float e) {
+    float reference = float(reference_depth);
+    float s = e < -reference ? 0.25 * reference * (1.0 - sqrt(1.0 - 8.0 * e / reference)) : e * reference / (reference - e);
+    return clamp((s - float(depth_low)) / 8.0, -1024.0, 1024.0);
+}
+
 // depths: nearest, deepest of the cells; their bands: first, last.
 March march_steps(Ray ray, ivec2 depths, ivec2 cell_bands) {
     if (!ray.marches || cell_bands.x > cell_bands.y) return March(256, 256);
     // A surface is met where depth <= 8 * (begin + size), and deepest(v) + thickness >= begin.
     int begin = depths.x - ray.size;
     int end = min(depths.y + thickness + 1, 256);
-    // The band in the middle of a step is one of first - 1 .. last. These estimates are off by less than 1, and are
-    // widened by 2.
+    // The band in the middle of a step is one of first - 1 .. last. These effective depths are off by less than 3 and are
+    // widened by 4, estimated depths are off by less than 1 and are widened by 2. At the bounds of effective depths
+    // (4095 and the reference viewpoint) steps are not skipped.
     if (ray.per_d != 0) {
-        vec2 bounds = vec2(ivec2(cell_bands.x - 1, cell_bands.y + 1) * 4096 + 2048 - ray.zero);
-        vec2 at = clamp(bounds * 256.0 / float(ray.per_d), -1024.0, 1024.0);
+        vec2 bounds = vec2(ivec2(cell_bands.x - 1, cell_bands.y + 1) * 4096 + 2048 - ray.at_foot);
+        vec2 effective = bounds * 256.0 / float(ray.per_d);
         int middle = ray.size >> 1;
-        begin = max(begin, int(min(at.x, at.y)) - middle - 2);
-        end = min(end, int(max(at.x, at.y)) - middle + 3);
+        float least = min(effective.x, effective.y) - 4.0;
+        float most = max(effective.x, effective.y) + 4.0;
+        if (least > 4100.0 || most < -4100.0) return March(256, 256);
+        float bound = min(4080.0, 0.9 * float(reference_depth));
+        if (least > -4080.0 && least < bound) begin = max(begin, int(depth_at(least)) - middle - 2);
+        float last = most > -4080.0 && most < bound ? depth_at(most) : 255.0;
+        // Depths behind the last one count as the last one.
+        if (last < 254.0) end = min(end, int(last) - middle + 3);
     }
     return March(ray.size * divide(max(begin, 0), ray.size), end);
 }

@@ -1,5 +1,9 @@
 #include "compositor/gpu/shader/view_uniforms.hpp"
 
+#include "engine/core/definition/effective_depth.hpp"
+
+#include <optional>
+
 namespace rs::compositor {
 namespace {
 
@@ -20,6 +24,8 @@ ShaderUniform form_low(const engine::LinearForm& form) {
 std::array<ShaderUniform, kViewUniforms> view_uniforms(const RaySpaceObject& object,
                                                        const engine::ViewRegisters& registers) {
     const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
+    const std::optional<engine::EffectiveDepth> depths =
+        shape.empty() ? std::nullopt : std::optional<engine::EffectiveDepth>(shape);
     const auto number = [](const char* name, std::int32_t value) { return ShaderUniform{name, 1, {value}}; };
     return {form_high(registers.rise),
             form_low(registers.rise),
@@ -30,8 +36,9 @@ std::array<ShaderUniform, kViewUniforms> view_uniforms(const RaySpaceObject& obj
             number("reference_q16", shape.reference_height_q20 >> 4),
             number("h_low_q16", shape.h_low_q20 >> 4),
             number("bands_per_unit", shape.bands_per_unit_q12),
-            number("depth_low", shape.depth_low_q20),
             number("depth_step", shape.depth_step_q24),
+            number("depth_low", depths ? depths->low_q3() : 0),
+            number("reference_depth", depths ? depths->reference_q3() : 0),
             number("jump", shape.jump),
             number("thickness", shape.thickness)};
 }

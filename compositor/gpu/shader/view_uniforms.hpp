@@ -16,7 +16,7 @@ struct ShaderUniform {
     std::array<std::int32_t, 4> values{};  ///< the first `count` are used
 };
 
-inline constexpr int kViewUniforms = 13;
+inline constexpr int kViewUniforms = 14;
 
 /// The uniforms of a view, always in the same order. Samplers and `setup_rows` are set by the caller.
 /// \param registers  valid for `object`

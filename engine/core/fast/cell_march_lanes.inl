@@ -36,7 +36,11 @@ public:
     MarchLanes() = default;
 
     HWY_INLINE MarchLanes(const ShapeWalk& walk, const ShapeColumn& column, Vector rise)
-        : column_(&column), thickness_(number(walk.thickness)), begin_(number(256)), step_(number(256)) {
+        : column_(&column),
+          effective_depth_(walk.effective_depth_q3.data()),
+          thickness_(number(walk.thickness)),
+          begin_(number(256)),
+          step_(number(256)) {
         const Vector h = hn::Add(number(walk.b_q16), multiply_shift_within<28>(number(column.lambda_foot_q20), rise));
         const auto shifted = [&](auto shift, Vector a, Vector b) {
             return column.level ? multiply_shift_within<decltype(shift)::value>(a, b)
@@ -51,12 +55,15 @@ public:
         const Vector reference =
             shifted(By16(), hn::Sub(h, number(walk.reference_height_q16)), number(column.inverse_rho_q20));
         const Vector per_radius = shifted(By12(), hn::Sub(slope, reference), per_unit);
-        zero_ = hn::Add(foot_, multiply_shift_within<28>(per_radius, number(walk.depth_low_q20)));
-        per_depth_ = multiply_shift_within<24>(per_radius, number(walk.depth_step_q24));
+        const Vector per_depth_q20 = multiply_shift_within<24>(per_radius, number(walk.depth_step_q24));
         ended_ = none();
         behind_ = number(-1);
         last_at_ = foot_;
-        if (!column.level) begin_march();
+        if (column.level) {
+            per_depth_q17_ = hn::ShiftRight<3>(per_depth_q20);
+        } else {
+            begin_march(per_depth_q20);
+        }
     }
 
     // Next surfaces of the lanes `active`; the results of other lanes are undefined.
@@ -115,19 +122,20 @@ public:
     }
 
 private:
-    HWY_INLINE void begin_march() {
-        per_depth_ =
-            hn::Min(hn::Max(per_depth_, number(-CellMarch::kMaxPerDepth_q20)), number(CellMarch::kMaxPerDepth_q20));
+    HWY_INLINE void begin_march(Vector unclamped_q20) {
+        const Vector per_depth_q20 =
+            hn::Min(hn::Max(unclamped_q20, number(-CellMarch::kMaxPerDepth_q20)), number(CellMarch::kMaxPerDepth_q20));
+        per_depth_q17_ = hn::ShiftRight<3>(per_depth_q20);
         const Vector steps =
-            hn::Min(hn::Add(hn::ShiftRight<11>(hn::Abs(per_depth_)), number(1)), number(CellMarch::kMaxSteps));
+            hn::Min(hn::Add(hn::ShiftRight<11>(hn::Abs(per_depth_q20)), number(1)), number(CellMarch::kMaxSteps));
         const LaneMask one = hn::Eq(steps, number(1));
         if (hn::AllTrue(Lanes(), one)) return;
         // Exact integer division in float: the added half keeps quotients away from integers.
         const Floats floats;
         step_ = hn::ConvertTo(Lanes(), hn::Div(hn::Set(floats, 256.5F), hn::ConvertTo(floats, steps)));
         // A ray that stays above or below all bands meets nothing.
-        const Vector from = band(hn::Zero(Lanes()));
-        const Vector to = band(hn::Add(number(column_->beyond), step_));
+        const Vector from = band_at(number(effective_depth_[0]));
+        const Vector to = band_at(number(effective_depth_[EffectiveDepth::kDepths - 1]));
         const LaneMask below = hn::Lt(hn::Max(from, to), hn::Zero(Lanes()));
         const LaneMask beside = hn::Or(below, at_least(hn::Min(from, to), number(column_->last_entry << 12)));
         // Skips the steps before the one that reaches the nearest surface, (nearest - 1) / step of them: they meet no
@@ -136,7 +144,13 @@ private:
         begin_ = hn::IfThenElse(hn::Or(one, beside), number(256), hn::Mul(skipped, step_));
     }
 
-    HWY_INLINE Vector band(Vector d) const { return hn::Add(zero_, hn::ShiftRight<8>(hn::Mul(d, per_depth_))); }
+    HWY_INLINE Vector band_at(Vector effective_q3) const {
+        return hn::Add(foot_, hn::ShiftRight<8>(hn::Mul(effective_q3, per_depth_q17_)));
+    }
+
+    HWY_INLINE Vector band(Vector d) const {
+        return band_at(look_up(effective_depth_, hn::Min(d, number(EffectiveDepth::kDepths - 1))));
+    }
 
     // Index of the entry at a band coordinate. Coordinates beyond the ends get the first or the last entry, which hold
     // no surface.
@@ -174,12 +188,12 @@ private:
     }
 
     const ShapeColumn* column_;
+    const std::int32_t* effective_depth_;
     Vector thickness_;
     Vector begin_;
     Vector step_;
     Vector foot_;
-    Vector zero_;
-    Vector per_depth_;
+    Vector per_depth_q17_;
     Vector behind_;
     Vector last_at_;  // band coordinate of the last surface
     LaneMask ended_;

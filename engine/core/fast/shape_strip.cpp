@@ -1,5 +1,6 @@
 // Set-up of neighbouring columns for shape_walk.cpp.
 
+#include "engine/core/definition/effective_depth.hpp"
 #include "engine/core/definition/fixed_point.hpp"
 #include "engine/core/definition/shape_pixel.hpp"
 #include "engine/core/fast/shape_walk.hpp"
@@ -52,17 +53,16 @@ void set_surfaces(const ShapeMap& shape, const ShapeSetup& setup, std::size_t st
     column.beyond = surfaces.beyond;
 }
 
-constexpr double kMaxMarchDepth = 256 + 128;  // greatest depth that a march evaluates: 256 plus half a step of 256
-
 // Section 6 at the first or last row of the view, without rounding. Apart from rounding everything is linear in the
 // rise, so the values of all other rows are between those of the two ends.
 struct BandsAtEnd {
     double foot_q12 = 0;
-    double zero_q12 = 0;
     double per_depth_q20 = 0;
     double largest = 0;  // magnitude of the largest number that may saturate
 
-    [[nodiscard]] double band_q12(double d) const { return zero_q12 + d * per_depth_q20 * 0x1p-8; }
+    [[nodiscard]] double band_q12(std::int32_t effective_q3) const {
+        return foot_q12 + effective_q3 * per_depth_q20 * 0x1p-11;
+    }
 };
 
 BandsAtEnd bands_at_end(const ShapeWalk& walk, const ShapeSetup& setup, double rise_q24) {
@@ -72,7 +72,6 @@ BandsAtEnd bands_at_end(const ShapeWalk& walk, const ShapeSetup& setup, double r
     const double per_radius = (slope - reference) * walk.bands_per_unit_q12 * 0x1p-12;
     BandsAtEnd bands;
     bands.foot_q12 = (h - walk.h_low_q16) * walk.bands_per_unit_q12 * 0x1p-16;
-    bands.zero_q12 = bands.foot_q12 + per_radius * walk.depth_low_q20 * 0x1p-28;
     bands.per_depth_q20 = per_radius * walk.depth_step_q24 * 0x1p-24;
     bands.largest = std::max({std::abs(reference), std::abs(per_radius), std::abs(bands.foot_q12)});
     return bands;
@@ -90,9 +89,9 @@ BandErrors band_errors(const ShapeWalk& walk, const ShapeSetup& setup) {
     const double reference = 1 + h * setup.inverse_rho_q20 * 0x1p-16;
     const double per_radius = 1 + (slope + reference) * walk.bands_per_unit_q12 * 0x1p-12;
     const double foot = 1 + h * walk.bands_per_unit_q12 * 0x1p-16;
-    const double zero = 1 + foot + per_radius * std::abs(walk.depth_low_q20) * 0x1p-28;
     const double per_depth = 1 + per_radius * walk.depth_step_q24 * 0x1p-24;
-    return {1 + zero + per_depth * kMaxMarchDepth * 0x1p-8, per_depth};
+    constexpr double kOfThreeBits = 8;
+    return {1 + foot + (per_depth + kOfThreeBits) * EffectiveDepth::kMax_q3 * 0x1p-11, per_depth};
 }
 
 // Computes the range of rows that read non-empty entries, and `level`.
@@ -127,9 +126,10 @@ void set_row_range(const ShapeWalk& walk, const ShapeSetup& setup, ShapeColumn& 
     };
     const double foot_per_row = include(first.foot_q12, last.foot_q12);
     bool same_way = std::abs(foot_per_row) > 0;
-    for (const double d : {0.0, kMaxMarchDepth}) {
+    for (const std::int32_t effective_q3 :
+         {walk.effective_depth_q3[0], walk.effective_depth_q3[EffectiveDepth::kDepths - 1]}) {
         if (column.level) break;
-        const double per_row = include(first.band_q12(d), last.band_q12(d));
+        const double per_row = include(first.band_q12(effective_q3), last.band_q12(effective_q3));
         same_way = same_way && foot_per_row * per_row > 0;
     }
     if (!same_way) return;
@@ -180,8 +180,9 @@ ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, co
     walk.h_low_q16 = shape.h_low_q20 >> 4;
     walk.bands_per_unit_q12 = shape.bands_per_unit_q12;
     walk.thickness = shape.thickness;
-    walk.depth_low_q20 = shape.depth_low_q20;
     walk.depth_step_q24 = shape.depth_step_q24;
+    const std::array<std::int32_t, EffectiveDepth::kDepths> table = EffectiveDepth(shape).table();
+    std::copy(table.begin(), table.end(), walk.effective_depth_q3.begin());
     return walk;
 }
 

@@ -4,6 +4,7 @@
 //
 // Upright views only: one set-up serves a column, and all pixels of a row have the same rise.
 
+#include "engine/core/definition/effective_depth.hpp"
 #include "engine/core/definition/shape_setup.hpp"
 #include "engine/core/definition/view_registers.hpp"
 #include "engine/core/fast/column_walk.hpp"
@@ -12,6 +13,7 @@
 #include "rayspace/image/image.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -82,8 +84,8 @@ struct ShapeWalk {
     std::int32_t h_low_q16 = 0;
     std::int32_t bands_per_unit_q12 = 0;
     std::int32_t thickness = 0;  // depth steps
-    std::int32_t depth_low_q20 = 0;
     std::int32_t depth_step_q24 = 0;
+    std::array<std::int32_t, EffectiveDepth::kDepths + kBlockRows> effective_depth_q3{};  // padded for look_up()
 };
 
 ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers);

@@ -1,5 +1,6 @@
 #include "engine/model/layout/object_image.hpp"
 
+#include "engine/core/definition/effective_depth.hpp"
 #include "engine/model/blocks/shared/map_reader.hpp"
 #include "engine/model/limits/coded_layout.hpp"
 #include "engine/model/limits/parallel_layout.hpp"
@@ -144,6 +145,9 @@ ShapeRegisters shape_registers(const ShapeMap& shape, WordAddress cells) {
     r.reference_height_q20 = shape.reference_height_q20;
     r.depth_low_q20 = shape.depth_low_q20;
     r.depth_step_q24 = shape.depth_step_q24;
+    const auto effective = EffectiveDepth(shape).table();
+    std::transform(effective.begin(), effective.end(), r.effective_depth_q3.begin(),
+                   [](std::int32_t depth_q3) { return static_cast<std::int16_t>(depth_q3); });
     r.foot_d_q3 = static_cast<int>(
         std::clamp<std::int64_t>(-std::int64_t{shape.depth_low_q20} * 128 / shape.depth_step_q24, 0, 255 * 8));
     r.jump = shape.jump;

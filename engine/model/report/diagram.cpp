@@ -57,6 +57,7 @@ std::string memory_table(const PipeMemoryBits& bits) {
            row("cells of two stripes (cell_march)", bits.cells) +
            row("words of the last column's cells (cell_march)", bits.held_words) +
            row("pixels under way (cell_march)", bits.march_pixels) +
+           row("effective depths (cell_march)", bits.effective_depths) +
            row("pixels at rims (surface_blend)", bits.rim_pixels) + row("texels (texel_cache)", bits.texels) +
            row("patches (patch_store)", bits.patches) +
            row("columns of two stripes (ray_rise, cell_march, sample_place)", bits.columns) +

@@ -120,12 +120,11 @@ struct ScannedPixel {
     [[nodiscard]] int column() const { return id % kStripeColumns; }
 };
 
-// Ray rise output: the line along which the pixel's ray crosses the bands (section 6).
+// Ray rise output: the bands that the pixel's ray crosses (section 6).
 struct PixelBandRay {
-    static constexpr int kBits = ScannedPixel::kBits + 30 + 31 + 23;
+    static constexpr int kBits = ScannedPixel::kBits + 30 + 23;
     ScannedPixel pixel;
     std::int32_t foot_q12 = 0;  // band at the foot
-    std::int32_t zero_q12 = 0;  // band at d = 0
     std::int32_t per_d_q20 = 0;
 };
 

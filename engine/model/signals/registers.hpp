@@ -3,6 +3,7 @@
 // other. A memory (embedded RAM in the FPGA, copied where two blocks read at once), not a block: only the render
 // controller writes it, and only while the blocks that read it are empty.
 
+#include "engine/core/definition/effective_depth.hpp"
 #include "engine/core/definition/view_registers.hpp"
 #include "engine/model/limits/board_limits.hpp"
 #include "engine/model/signals/sdram.hpp"
@@ -37,10 +38,11 @@ struct ShapeRegisters {
     std::int32_t reference_height_q20 = 0;
     std::int32_t depth_low_q20 = 0;
     std::int32_t depth_step_q24 = 0;
-    int foot_d_q3 = 0;       // 11 bits
-    int jump = 0;            // 8 bits
-    int thickness = 0;       // 8 bits
-    std::int64_t lines = 0;  // sum over all gaps; 27 bits
+    std::array<std::int16_t, EffectiveDepth::kDepths> effective_depth_q3{};  // 13 bits; in a memory of cell_march
+    int foot_d_q3 = 0;                                                       // 11 bits
+    int jump = 0;                                                            // 8 bits
+    int thickness = 0;                                                       // 8 bits
+    std::int64_t lines = 0;                                                  // sum over all gaps; 27 bits
     WordAddress cells = 0;
 };
 

@@ -23,8 +23,20 @@ struct Surfaces {
 };
 
 struct Bands {
-    Whole at_foot = 0, zero = 0, per_d = 0;
-    [[nodiscard]] Whole band_at(Whole d) const { return zero + (below(d * per_d, 30.4, "d * per_d") >> 8); }
+    Whole at_foot = 0, per_d = 0;
+    Whole low = 0, reference = 0;  // q3
+
+    // "E(d)"
+    [[nodiscard]] Whole effective(Whole d) const {
+        const Whole s = low + 8 * std::min<Whole>(d, 255);
+        const Whole squared = below(s * s, 28.4, "s * s");
+        const Whole divisor = within(std::max(reference + s, (reference + 1) >> 1), 256, power(29), "reference + s");
+        return clamp(s - floor_div(squared, divisor), -4095, 4095);
+    }
+    [[nodiscard]] Whole band_at(Whole d) const {
+        const Whole change = below(effective(d) * (per_d >> 3), 31, "E(d) * (per_d >> 3)") >> 8;
+        return below(at_foot + change, std::log2(std::exp2(29) + std::exp2(23)), "band_at");
+    }
 };
 
 Bands bands_of(const ShapeMap& shape, const engine::ViewRegisters& view, const ShapeRay& ray, Whole rise,
@@ -41,11 +53,10 @@ Bands bands_of(const ShapeMap& shape, const engine::ViewRegisters& view, const S
         hold(below(difference * shape.bands_per_unit_q12, 55.4, "(slope - ref) * bands_per_unit") >> 12);
     Bands bands;
     bands.at_foot = hold(((h - (shape.h_low_q20 >> 4)) * shape.bands_per_unit_q12) >> 16);
-    bands.zero = bands.at_foot +
-                 never_held(below(drift * shape.depth_low_q20, 50.1, "drift * depth_low") >> 28, "zero - at_foot");
-    below(bands.zero, std::log2(std::exp2(29) + std::exp2(22.1)), "zero");
     const Whole unclamped = never_held((drift * shape.depth_step_q24) >> 24, "per_d");
     bands.per_d = clamp(unclamped, -power(22), power(22));
+    bands.low = clamp(floor_div(128 * Whole{shape.depth_low_q20}, shape.depth_step_q24), -power(14), power(14));
+    bands.reference = std::min(floor_div(128 * Whole{shape.reference_distance_q20}, shape.depth_step_q24), power(28));
     if (bands.per_d != unclamped) branches.take(Branch::band_drift_clamped);
     return bands;
 }

@@ -11,10 +11,6 @@ bool is_alone(const ColumnSetup& column) {
     return column.weight == 0 || column.weight == 256;
 }
 
-std::int32_t band_q12(const PixelBandRay& ray, int d) {
-    return ray.zero_q12 + ((d * ray.per_d_q20) >> 8);
-}
-
 ShapeCell cell_of(std::uint64_t word, int n) {
     return unpacked_cell(static_cast<std::uint16_t>(word >> (16 * n)));
 }
@@ -76,6 +72,13 @@ void CellMarch::store_cells(std::uint64_t first_line, std::uint64_t second_line)
     }
 }
 
+// Band at a depth, 0 or greater. A depth behind the last one counts as the last one.
+std::int32_t CellMarch::band_q12(const Turn& turn, int d) const {
+    const auto& effective = registers_.object_of(turn.ray.pixel.view).shape.effective_depth_q3;
+    const std::int32_t effective_q3 = effective[static_cast<std::size_t>(std::min(d, 255))];
+    return turn.ray.foot_q12 + ((effective_q3 * (turn.ray.per_d_q20 >> 3)) >> 8);
+}
+
 SurfaceStack CellMarch::surfaces_at(const ColumnSetup& column, std::int32_t at_q12) {
     ++looks_;
     const ShapeRegisters& shape = registers_.object_of(column.view).shape;
@@ -110,7 +113,7 @@ bool CellMarch::next_ray(Turn& turn) {
 void CellMarch::look(Turn& turn, const ColumnSetup& column) {
     const int size = march_steps(turn.ray.per_d_q20).size;
     const int begin = turn.state.begin;
-    const SurfaceCell cell = surfaces_at(column, band_q12(turn.ray, begin + (size >> 1))).first;
+    const SurfaceCell cell = surfaces_at(column, band_q12(turn, begin + (size >> 1))).first;
     const int thickness = registers_.object_of(column.view).shape.thickness;
     const int end = begin + size;
     turn.state.begin = std::min(end, MarchState::kFoot);
@@ -123,8 +126,7 @@ void CellMarch::look(Turn& turn, const ColumnSetup& column) {
 void CellMarch::look_at_foot(Turn& turn, const ColumnSetup& column) {
     const SurfaceCell& of_foot = turn.foot.first;
     const bool at_its_depth = of_foot.exists();
-    SurfaceStack last =
-        surfaces_at(column, at_its_depth ? band_q12(turn.ray, of_foot.depth_q3 >> 3) : turn.ray.foot_q12);
+    SurfaceStack last = surfaces_at(column, at_its_depth ? band_q12(turn, of_foot.depth_q3 >> 3) : turn.ray.foot_q12);
     if (!at_its_depth && last.first.exists()) {
         turn.foot = last;
         return;

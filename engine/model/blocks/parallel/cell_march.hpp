@@ -7,18 +7,21 @@
 //
 // The pipeline is a ring: the result of a *turn* of two looks is available kStages cycles later; only then the ray
 // takes its next turn, with priority over other rays; up to kStages rays march at the same time. Stages of a look:
-// bands from zero and per_d (a product, kProductCycles), read, nearest and farthest, groups and weights, products and
-// sums, mean (a table of reciprocals and a product, divide_by_weight()), hit test.
+// effective depth (a table), band from it, the foot and per_d (a product, kProductCycles), read, nearest and farthest,
+// groups and weights, products and sums, mean (a table of reciprocals and a product, divide_by_weight()), hit test.
 //
 // Stores the cells of two stripes, already interpolated between their lines (SurfaceCell, 26 bits), in four memories:
 // even and odd bands of both places in p, four bands per two words of 52 bits. A look reads each memory at one address;
 // they have two ports, and a write of new cells occupies one. Also stores, for each pixel in flight, the line along
-// which its ray crosses the bands.
+// which its ray crosses the bands, and the effective depths of all objects, 256 of 13 bits each, in a memory with two
+// ports for the two looks. They are written when an object is loaded.
 
+#include "engine/core/definition/effective_depth.hpp"
 #include "engine/core/definition/shape_cells.hpp"
 #include "engine/model/blocks/parallel/column_setup.hpp"
 #include "engine/model/blocks/shared/stages.hpp"
 #include "engine/model/clock/block.hpp"
+#include "engine/model/limits/board_limits.hpp"
 #include "engine/model/limits/parallel_layout.hpp"
 #include "engine/model/signals/arithmetic.hpp"
 #include "engine/model/signals/parallel_messages.hpp"
@@ -37,12 +40,14 @@ MarchSteps march_steps(std::int32_t per_d_q20);
 
 class CellMarch final : public Block {
 public:
-    static constexpr int kStages = kProductCycles + 6;
+    static constexpr int kStages = kProductCycles + 7;
     static constexpr int kSurfaceBits = 12 + 5 + 8 + 1;
     static constexpr std::size_t kCellBits =
         std::size_t{kStripeSlots} * kStripeColumns * 2 * kMaxBands * static_cast<std::size_t>(kSurfaceBits);
     static constexpr std::size_t kHeldBits = std::size_t{4} * kMaxBands / kCellsPerWord * 64;
     static constexpr std::size_t kPixelBits = std::size_t{kPatchIds} * PixelBandRay::kBits;
+    static constexpr std::size_t kDepthBits =
+        static_cast<std::size_t>(BoardLimits{}.objects) * EffectiveDepth::kDepths * 13;
 
     struct Ports {
         Fifo<ColumnSetup>& columns;
@@ -73,6 +78,7 @@ private:
     void take_turn(Turn& turn, int looks);
     void look(Turn& turn, const ColumnSetup& column);
     void look_at_foot(Turn& turn, const ColumnSetup& column);
+    [[nodiscard]] std::int32_t band_q12(const Turn& turn, int d) const;
     [[nodiscard]] SurfaceStack surfaces_at(const ColumnSetup& column, std::int32_t at_q12);
 
     const RegisterFile& registers_;

@@ -93,7 +93,6 @@ PixelBandRay pixel_band_ray(const ScannedPixel& pixel, const ColumnSetup& column
         multiply_shift(h_q16 - (shape.reference_height_q20 >> 4), narrow(column.inverse_rho_q20), 16);
     const std::int32_t drift_q20 = multiply_shift(slope_q20 - reference_q20, shape.bands_per_unit_q12, 12);
     out.foot_q12 = multiply_shift(h_q16 - (shape.h_low_q20 >> 4), shape.bands_per_unit_q12, 16);
-    out.zero_q12 = out.foot_q12 + multiply_shift(drift_q20, shape.depth_low_q20, 28);
     out.per_d_q20 =
         std::clamp(multiply_shift(drift_q20, shape.depth_step_q24, 24), -kMostPerDepth_q20, kMostPerDepth_q20);
     return out;

@@ -59,7 +59,7 @@ private:
 };
 
 // Ray rise: computes the band at which a pixel's ray starts and its slope through the bands (RECONSTRUCTION.md, section
-// 6, up to per_d). Seven multipliers in five consecutive steps; a pixel per cycle. A pixel waits for its column.
+// 6, up to per_d). Six multipliers in five consecutive steps; a pixel per cycle. A pixel waits for its column.
 
 // Ray of a pixel through the bands, without the clock.
 PixelBandRay pixel_band_ray(const ScannedPixel& pixel, const ColumnSetup& column, const ShapeRegisters& shape,

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
 namespace rs::engine {
@@ -21,11 +22,12 @@ struct Column {
     std::vector<ShapeCell> cells;
 
     // Bands of one radius each; the foot of a ray at height 0 is at the lower end of band bands / 2 and at depth 128.
+    // Effective depths are those of a distant reference viewpoint, so that bands are linear in depth.
     Column(int bands, ShapeCell cell) : cells(static_cast<std::size_t>(bands), cell) {
         shape.bands = bands;
         shape.bands_per_unit_q12 = 1 << 12;
         shape.h_low_q20 = -bands / 2 * kOne_q20;
-        shape.reference_distance_q20 = 3 * kOne_q20;
+        shape.reference_distance_q20 = std::numeric_limits<std::int32_t>::max();
         shape.depth_low_q20 = -2 * kOne_q20;
         shape.depth_step_q24 = kStep_q24;
         setup.inverse_r_q20 = kOne_q20;
