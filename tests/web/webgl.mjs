@@ -103,7 +103,7 @@ const tests = {
           const numbers = planes.flatMap((plane) => [plane.a, plane.c, ...plane.n, ...plane.t]);
           const inputs = core.prepareRegisters([width, height, ring, filter, b, ...s, ...numbers]);
           for (const photo of object.missing(inputs.photos)) object.upload(photo, core.photo(photo));
-          device.draw(object, inputs, true);
+          device.draw(object, inputs, { withDepth: true });
           const { rgba, depth } = device.read(width, height);
           ++views;
           if (core.hash(rgba) !== view.rgba) wrong.push(`${each.name}, view ${index}: rgba`);
@@ -149,6 +149,38 @@ const tests = {
       assert.ok(translucentPixels > 100, `${translucentPixels} translucent pixels`);
       assert.deepEqual([...page.problems, ...page.warnings], []);
       await page.context().close();
+    }
+  },
+
+  // Views between two rings, level and tilted, are mixed by the shader as by the core.
+  async mixesTwoRings() {
+    const page = await open();
+    const results = await page.evaluate(async () => {
+      const src = "/vectors/two-rings.rso";
+      const webgl = await showAtRest({ renderer: "webgl", src });
+      const core = await showAtRest({ renderer: "core", src });
+      const { radius } = webgl.getCameraOrbit();
+      const { width, height } = webgl.viewRenderer.canvas;
+      const { Core } = await import("/web/core.mjs");
+      const bytes = async (path) => (await fetch(path)).arrayBuffer();
+      const described = (await Core.create(await bytes("/web/core/rayspace_core.wasm"))).open(new Uint8Array(await bytes(src)), src);
+      const elevations = described.rings.map(({ elevation }) => elevation);
+      const [low, high] = [Math.min(...elevations), Math.max(...elevations)];
+      const results = [];
+      for (const part of [0, 0.25, 0.45, 0.8]) {
+        const view = { azimuth: 0.7, elevation: low + part * (high - low), distance: radius };
+        const { weight } = await webgl.viewRenderer.prepare(width, height, view);
+        const drawnBy = await draw(webgl.viewRenderer, width, height, view);
+        await core.viewRenderer.render(width, height, view);
+        const [found, expected] = [pixels(webgl.viewRenderer), pixels(core.viewRenderer)];
+        results.push({ part, weight, drawnBy, wrong: found.filter((value, i) => value !== expected[i]).length });
+      }
+      return results;
+    });
+    for (const { part, weight, drawnBy, wrong } of results) {
+      assert.equal(weight > 0, part > 0, `${part}: weight ${weight}`);
+      assert.equal(drawnBy, "webgl", `${part}`);
+      assert.equal(wrong, 0, `${part}`);
     }
   },
 

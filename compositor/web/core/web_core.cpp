@@ -71,8 +71,8 @@ Status read_registers(std::span<const double> values) {
     if (values.size() < kHead || (values.size() - kHead) % kPlane != 0) {
         return Error{"view: its registers are incomplete"};
     }
-    prepared = {registers_from(values), {}};
-    return engine::check_registers(opened->object(), prepared.registers);
+    prepared = {{registers_from(values), {}, 0}, {}};
+    return engine::check_registers(opened->object(), prepared.rings.nearest);
 }
 
 // Address in the module's memory.
@@ -81,12 +81,12 @@ std::int32_t place_of(const void* data) {
 }
 
 // Result of web_prepare().
-const std::int32_t* places_of_prepared() {
-    shader_view = shader_inputs.prepare(opened->object(), prepared.registers);
+const std::int32_t* places_of(const engine::ViewRegisters& registers) {
+    shader_view = shader_inputs.prepare(opened->object(), registers);
     const std::vector<SampledRow> none;
     const std::vector<SampledRow>& rows = prepared.rows ? *prepared.rows : none;
-    shader_view_places = {prepared.registers.width, prepared.registers.height, prepared.registers.ring,
-                          shader_view.setup_rows};
+    shader_view_places = {registers.width, registers.height, registers.ring, shader_view.setup_rows,
+                          prepared.rings.weight_q8};
     const auto add = [](const auto& values) {
         shader_view_places.insert(shader_view_places.end(),
                                   {place_of(values.data()), static_cast<std::int32_t>(values.size())});
@@ -171,7 +171,7 @@ WEB_EXPORT const rs::Rgba8* web_render(int width, int height, double azimuth_rad
 /// plane a, c, and the three numbers of `along_normal` and of `along_tangent`. \return as web_render()
 WEB_EXPORT const rs::Rgba8* web_render_registers(const double* values, std::size_t count) {
     if (!succeeded(read_registers({values, count}))) return nullptr;
-    if (!succeeded(opened->render_registers(prepared.registers))) return nullptr;
+    if (!succeeded(opened->render_registers(prepared.rings.nearest))) return nullptr;
     return opened->image().data();
 }
 
@@ -224,9 +224,10 @@ WEB_EXPORT const std::int8_t* web_photo_details() {
     return photo.details.data();
 }
 
-/// Inputs of the reconstruction shader for a view. \return null, or twelve numbers: width and height of the image to
-/// render, ring, rows of set-ups; address and count of the set-ups (texels of four numbers), of the uniforms (four
-/// numbers each), of the photos that the view needs, and of its SampledRows; no set-ups if there would be too many
+/// Inputs of the reconstruction shader for a view. \return null, or thirteen numbers: width and height of the image to
+/// render, ring, rows of set-ups, weight (q8) of the second ring or 0; address and count of the set-ups (texels of four
+/// numbers), of the uniforms (four numbers each), of the photos that the view needs, and of its SampledRows; no set-ups
+/// if there would be too many
 WEB_EXPORT const std::int32_t* web_prepare(int width, int height, double azimuth_rad, double elevation_rad,
                                            double distance) {
     rs::Result<PreparedView> made = opened->prepare({width, height, azimuth_rad, elevation_rad, distance});
@@ -235,13 +236,18 @@ WEB_EXPORT const std::int32_t* web_prepare(int width, int height, double azimuth
         return nullptr;
     }
     prepared = std::move(*made);
-    return places_of_prepared();
+    return places_of(prepared.rings.nearest);
+}
+
+/// The inputs for the second ring of the last view of web_prepare(), whose weight is above 0. \return as web_prepare()
+WEB_EXPORT const std::int32_t* web_prepare_second() {
+    return places_of(*prepared.rings.second);
 }
 
 /// As web_prepare(), for the view of given registers (web_render_registers()).
 WEB_EXPORT const std::int32_t* web_prepare_registers(const double* values, std::size_t count) {
     if (!succeeded(read_registers({values, count}))) return nullptr;
-    return places_of_prepared();
+    return places_of(prepared.rings.nearest);
 }
 
 /// XXH64 of bytes as 16 hexadecimal digits, as in conformance vectors.

@@ -21,6 +21,7 @@ interface Exports {
   web_photo(photo: number): number;
   web_photo_details(): number;
   web_prepare(width: number, height: number, azimuth: number, elevation: number, distance: number): number;
+  web_prepare_second(): number;
   web_prepare_registers(values: number, count: number): number;
   web_stream_begin(name: number, size: number): void;
   web_stream_add(bytes: number, size: number, offset: number): number;
@@ -116,6 +117,10 @@ export interface ViewInputs {
   photos: Int32Array<ArrayBuffer>;
   /** Four numbers per row of the view (row_sampling.hpp); empty if the rendered image is the view. */
   rows: Int32Array<ArrayBuffer>;
+  /** Weight (1/256) of the second ring; 0: there is none. */
+  weight: number;
+  /** Inputs for the second ring, in views between two rings. */
+  second?: ViewInputs;
 }
 
 /** Bytes [begin, end) of a file. */
@@ -275,7 +280,9 @@ export class Core {
   /** Inputs of WebGL for a view. */
   prepare(width: number, height: number, view: Orbit): ViewInputs {
     const { azimuth, elevation, distance } = view;
-    return this.inputs(this.guarded(() => this.wasm.web_prepare(width, height, azimuth, elevation, distance)));
+    const nearest = this.inputs(this.guarded(() => this.wasm.web_prepare(width, height, azimuth, elevation, distance)));
+    if (nearest.weight === 0) return nearest;
+    return { ...nearest, second: this.inputs(this.guarded(() => this.wasm.web_prepare_second())) };
   }
 
   /** Inputs of WebGL for the view of given registers. */
@@ -297,10 +304,11 @@ export class Core {
   private inputs(at: number): ViewInputs {
     if (!at) throw this.lastError();
     const { buffer } = this.wasm.memory;
-    const numbers = new Int32Array(buffer, at, 12);
-    const [width, height, ring, setupRows] = numbers;
+    const numbers = new Int32Array(buffer, at, 13);
+    const [width, height, ring, setupRows, weight] = numbers;
     const copy = (n: number, each: number) => new Int32Array(buffer, numbers[n], each * numbers[n + 1]).slice();
-    return { width, height, ring, setupRows, setups: copy(4, 4), uniforms: copy(6, 4), photos: copy(8, 1), rows: copy(10, 4) };
+    const [setups, uniforms, photos, rows] = [copy(5, 4), copy(7, 4), copy(9, 1), copy(11, 4)];
+    return { width, height, ring, setupRows, weight, setups, uniforms, photos, rows };
   }
 
   private pixels(at: number, count: number): Uint8ClampedArray<ArrayBuffer> {

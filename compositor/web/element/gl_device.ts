@@ -29,6 +29,11 @@ interface GrowingTexture {
   height: number;
 }
 
+interface Target extends GrowingTexture {
+  depths: WebGLTexture;
+  framebuffer: WebGLFramebuffer;
+}
+
 export class GlDevice {
   private static shared?: GlDevice;
   private static software?: boolean;
@@ -44,7 +49,7 @@ export class GlDevice {
   generation = 0;
   private users = 0;
   private programs?: Programs;
-  private target?: GrowingTexture & { depths: WebGLTexture; framebuffer: WebGLFramebuffer };
+  private targets: Target[] = []; // of the nearest ring, and of the second one
   private setups?: GrowingTexture;
   private rows?: GrowingTexture;
   private readonly objects = new Map<GlObject, { bytes: number; drawn_ms: number }>(); // least recently drawn first
@@ -129,16 +134,19 @@ export class GlDevice {
     gl.useProgram(present.program);
     this.setUniform(present, "image", [0]);
     this.setUniform(present, "rows", [1]);
+    this.setUniform(present, "second", [2]);
   }
 
   /**
-   * Renders a view into the target, where it is read by present() and read(). All photos that it needs are uploaded.
+   * Renders the image of a ring into a target, where it is read by present() and read(). All photos that it needs are
+   * uploaded.
+   * @param target 0: nearest ring, 1: second ring
    * @param withDepth also renders the axial depths
    */
-  draw(object: GlObject, inputs: ViewInputs, withDepth = false): void {
+  draw(object: GlObject, inputs: ViewInputs, { target = 0, withDepth = false } = {}): void {
     const { gl } = this;
     const { width, height, setupRows } = inputs;
-    this.reserveTarget(width, height);
+    this.reserveTarget(target, width, height);
     const { texts, reconstruction } = this.programs!;
     gl.useProgram(reconstruction.program);
     for (const [n, name] of texts.uniforms.entries()) {
@@ -148,7 +156,7 @@ export class GlDevice {
     const used = this.objects.get(object)!;
     this.objects.delete(object);
     this.objects.set(object, { ...used, drawn_ms: performance.now() });
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.target!.framebuffer);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.targets[target].framebuffer);
     gl.drawBuffers([gl.COLOR_ATTACHMENT0, withDepth ? gl.COLOR_ATTACHMENT1 : gl.NONE]);
     gl.enable(gl.SCISSOR_TEST);
     gl.viewport(0, 0, width, height);
@@ -166,7 +174,7 @@ export class GlDevice {
     gl.disable(gl.SCISSOR_TEST);
   }
 
-  /** Draws the last view of draw() onto the canvas, whose lower left corner gets width x height pixels. */
+  /** Mixes the last images of draw() and draws them onto the canvas, whose lower left corner gets width x height pixels. */
   present(width: number, height: number, inputs: ViewInputs): void {
     const { gl, canvas } = this;
     if (canvas.width < width) canvas.width = width;
@@ -175,8 +183,12 @@ export class GlDevice {
     gl.useProgram(program.program);
     const isSampled = inputs.rows.length > 0;
     this.rows = this.store(this.rows, 1, 1, isSampled ? height : 1, isSampled ? inputs.rows : new Int32Array(4));
-    gl.activeTexture(gl.TEXTURE0);
-    gl.bindTexture(gl.TEXTURE_2D, this.target!.texture);
+    const images = [this.targets[0].texture, this.targets[inputs.second ? 1 : 0].texture];
+    for (const [n, unit] of [gl.TEXTURE0, gl.TEXTURE2].entries()) {
+      gl.activeTexture(unit);
+      gl.bindTexture(gl.TEXTURE_2D, images[n]);
+    }
+    this.setUniform(program, "weight", [inputs.second ? inputs.weight : 0]);
     this.setUniform(program, "image_size", [inputs.width, inputs.height]);
     this.setUniform(program, "height", [height]);
     this.setUniform(program, "is_sampled", [isSampled ? 1 : 0]);
@@ -185,10 +197,10 @@ export class GlDevice {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  /** Reads the last view of draw(): straight RGBA, and the axial depths (q20) of draw(..., true). For tests. */
+  /** Reads the last image of the nearest ring: straight RGBA, and axial depths (q20) if they were drawn. For tests. */
   read(width: number, height: number): { rgba: Uint8Array; depth: Int32Array } {
     const { gl } = this;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.target!.framebuffer);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.targets[0].framebuffer);
     const rgba = new Uint8Array(4 * width * height);
     gl.readBuffer(gl.COLOR_ATTACHMENT0);
     gl.readPixels(0, 0, width, height, gl.RGBA_INTEGER, gl.UNSIGNED_BYTE, rgba);
@@ -209,7 +221,8 @@ export class GlDevice {
 
   private forget(): void {
     ++this.generation;
-    this.programs = this.target = this.setups = this.rows = undefined;
+    this.programs = this.setups = this.rows = undefined;
+    this.targets = [];
     this.objects.clear();
   }
 
@@ -244,15 +257,16 @@ export class GlDevice {
     else gl.uniform1i(at, x);
   }
 
-  private reserveTarget(width: number, height: number): void {
+  private reserveTarget(n: number, width: number, height: number): void {
     const { gl } = this;
-    if (this.target && this.target.width >= width && this.target.height >= height) return;
-    const side = { width: Math.max(width, this.target?.width ?? 1), height: Math.max(height, this.target?.height ?? 1) };
-    if (this.target) {
-      gl.deleteTexture(this.target.texture);
-      gl.deleteTexture(this.target.depths);
-      gl.deleteFramebuffer(this.target.framebuffer);
-      this.target = undefined;
+    const before: Target | undefined = this.targets[n];
+    if (before && before.width >= width && before.height >= height) return;
+    const side = { width: Math.max(width, before?.width ?? 1), height: Math.max(height, before?.height ?? 1) };
+    if (before) {
+      gl.deleteTexture(before.texture);
+      gl.deleteTexture(before.depths);
+      gl.deleteFramebuffer(before.framebuffer);
+      delete this.targets[n];
     }
     const framebuffer = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
@@ -267,7 +281,7 @@ export class GlDevice {
     if (!this.isLost && gl.checkFramebufferStatus(gl.FRAMEBUFFER) !== gl.FRAMEBUFFER_COMPLETE) {
       throw new GlError("WebGL does not render integers");
     }
-    this.target = { ...side, texture, depths, framebuffer };
+    this.targets[n] = { ...side, texture, depths, framebuffer };
   }
 
   /** A new texture without filtering, bound to a unit. */

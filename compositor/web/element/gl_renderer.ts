@@ -83,13 +83,15 @@ export class GlRenderer implements ViewRenderer {
     if (!this.device || this.device.isLost || this.arriving) return false;
     const inputs = await this.prepare(width, height, view);
     const { device, object } = this;
-    if (!device || inputs.setups.length === 0) return false;
-    if (!object?.isValid || object.missing(inputs.photos).length > 0) {
-      this.startUpload(() => this.upload(inputs.photos));
+    const rings = inputs.second ? [inputs, inputs.second] : [inputs];
+    if (!device || rings.some(({ setups }) => setups.length === 0)) return false;
+    const photos = photosOf(inputs);
+    if (!object?.isValid || object.missing(photos).length > 0) {
+      this.startUpload(() => this.upload(photos));
       return false;
     }
     try {
-      device.draw(object, inputs);
+      rings.forEach((ring, n) => device.draw(object, ring, { target: n }));
       device.present(width, height, inputs);
     } catch (error) {
       if (!device.isLost) this.fail(error);
@@ -137,7 +139,7 @@ export class GlRenderer implements ViewRenderer {
       if (!this.object?.isValid) return;
       const beside = { ...view, azimuth: view.azimuth + turn };
       const inputs = await this.prepare(kBesideSide, kBesideSide, beside).catch(() => undefined);
-      if (inputs) await this.upload(inputs.photos);
+      if (inputs) await this.upload(photosOf(inputs));
     }
   }
 
@@ -163,6 +165,10 @@ export class GlRenderer implements ViewRenderer {
     this.device?.release();
     this.device = undefined;
   }
+}
+
+function photosOf(inputs: ViewInputs): Int32Array {
+  return Int32Array.from([...inputs.photos, ...(inputs.second?.photos ?? [])]);
 }
 
 /** Renderers of the attribute `renderer`. */

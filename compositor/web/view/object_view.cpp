@@ -1,7 +1,6 @@
 #include "compositor/web/view/object_view.hpp"
 
 #include "compositor/viewer/views/upright_image.hpp"
-#include "engine/core/definition/view_registers.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/ring_axes.hpp"
@@ -138,7 +137,11 @@ Result<PreparedView> ObjectView::prepare(const OrbitView& view) const {
         is_upright(camera) ? std::nullopt : compositor::upright_image(camera, whole, bounds_of(captured_.front()), 1);
     if (upright) prepared.rows = sampled_rows(upright->image_from_screen, view.width, view.height);
     if (!prepared.rows) upright.reset();
-    RS_ASSIGN_OR_RETURN(prepared.registers, engine::prepare_view(object(), in_rig(upright ? upright->camera : camera)));
+    RS_ASSIGN_OR_RETURN(prepared.rings,
+                        engine::prepare_mixed_view(object(), in_rig(upright ? upright->camera : camera)));
+    if (prepared.rings.second && !renderer_.has_images(prepared.rings.second->ring)) {
+        prepared.rings = {std::move(prepared.rings.nearest), {}, 0};
+    }
     return prepared;
 }
 
@@ -147,11 +150,11 @@ Status ObjectView::render(const OrbitView& view) {
     image_ = Image<Rgba8>(view.width, view.height);
     lambda_q20_ = {};
     if (!prepared.rows) {
-        renderer_.render(prepared.registers, image_);
+        renderer_.render(prepared.rings, image_);
         return {};
     }
-    Image<Rgba8> level(prepared.registers.width, prepared.registers.height);
-    renderer_.render(prepared.registers, level);
+    Image<Rgba8> level(prepared.rings.nearest.width, prepared.rings.nearest.height);
+    renderer_.render(prepared.rings, level);
     resample(level, *prepared.rows, image_);
     return {};
 }

@@ -4,6 +4,7 @@
 // window. Not thread-safe.
 
 #include "compositor/web/view/row_sampling.hpp"
+#include "engine/core/definition/view_registers.hpp"
 #include "engine/core/fast/renderer.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -41,9 +42,9 @@ struct OrbitView {
     double distance = 0;       // object radii
 };
 
-/// Registers of a view, and its resampling.
+/// Registers of a view, which two rings may show, and its resampling.
 struct PreparedView {
-    engine::ViewRegisters registers;
+    engine::MixedView rings;
     std::optional<std::vector<SampledRow>> rows;  // if the registers are those of an upright image of the view
 };
 
@@ -69,7 +70,8 @@ public:
     /// Photos of the object, decoded on demand.
     [[nodiscard]] const engine::TexelStore& texels() const { return renderer_.texels(); }
 
-    /// Registers of a view. \return error for views outside of the ranges of engine::prepare_view()
+    /// Registers of a view. The second ring is left out while it has no photos.
+    /// \return error for views outside of the ranges of engine::prepare_view()
     [[nodiscard]] Result<PreparedView> prepare(const OrbitView& view) const;
     /// Renders a view with straight alpha. \return as prepare()
     Status render(const OrbitView& view);

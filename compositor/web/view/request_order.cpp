@@ -108,7 +108,7 @@ std::vector<ChunkKey> request_order(const ObjectView& shown, const OrbitView& vi
     const RaySpaceObject& object = shown.object();
     RequestOrder order(object, view.azimuth_rad);
     const Result<PreparedView> prepared = shown.prepare(view);
-    const auto nearest = prepared ? static_cast<std::size_t>(prepared->registers.ring) : 0;
+    const auto nearest = prepared ? static_cast<std::size_t>(prepared->rings.nearest.ring) : 0;
     const Ring& ring = object.rings[nearest];
     const std::vector<std::uint16_t> lowest = order.nearest(ring, order.lowest_level(ring));
     order.add_photo(ring, lowest.front());
@@ -116,7 +116,7 @@ std::vector<ChunkKey> request_order(const ObjectView& shown, const OrbitView& vi
 
     const std::vector<std::uint16_t> all = order.nearest(ring, kHighest);
     order.add_photos(ring, {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(kBracketing, all.size()))});
-    const std::vector<int> read = prepared ? shown.renderer().images_of(prepared->registers) : std::vector<int>{};
+    const std::vector<int> read = prepared ? shown.renderer().images_of(prepared->rings.nearest) : std::vector<int>{};
     for (const std::uint16_t each : all) {
         if (std::binary_search(read.begin(), read.end(), int{each})) order.add_photo(ring, each);
     }

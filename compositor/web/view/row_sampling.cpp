@@ -41,16 +41,30 @@ constexpr const char* kPresent = R"glsl(#version 300 es
 precision highp float;
 precision highp int;
 uniform highp usampler2D image;
+uniform highp usampler2D second;
+uniform int weight;
 uniform highp isampler2D rows;
 uniform ivec2 image_size;
 uniform int height;
 uniform int is_sampled;
 out vec4 colour;
 
+// mix_pixels() of engine/core/definition/mix_rings.hpp.
+uvec4 pixel_at(ivec2 at) {
+    uvec4 nearest = texelFetch(image, at, 0);
+    if (weight == 0) return nearest;
+    uvec4 other = texelFetch(second, at, 0);
+    uint a = nearest.a * uint(256 - weight);
+    uint b = other.a * uint(weight);
+    uint alpha = (a + b + 128u) >> 8;
+    if (alpha == 0u) return uvec4(0u);
+    return uvec4((nearest.rgb * a + other.rgb * b + ((a + b) >> 1)) / (a + b), alpha);
+}
+
 // The sums of resample(): r, g, b, a.
 void add_tap(inout uvec4 sum, ivec2 at, uint weight) {
     if (at.x < 0 || at.y < 0 || at.x >= image_size.x || at.y >= image_size.y) return;
-    uvec4 p = texelFetch(image, at, 0);
+    uvec4 p = pixel_at(at);
     uint w = (weight * p.a) >> 8;
     sum += w * uvec4(p.rgb, 1u);
 }
@@ -73,7 +87,7 @@ uvec4 sampled(ivec2 pixel) {
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     pixel.y = height - 1 - pixel.y;
-    uvec4 straight = is_sampled == 1 ? sampled(pixel) : texelFetch(image, pixel, 0);
+    uvec4 straight = is_sampled == 1 ? sampled(pixel) : pixel_at(pixel);
     uvec3 premultiplied = (straight.rgb * straight.a + 127u) / 255u;
     colour = vec4(premultiplied, straight.a) / 255.0;
 }

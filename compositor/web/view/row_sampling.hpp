@@ -32,8 +32,9 @@ std::optional<std::vector<SampledRow>> sampled_rows(const glm::dmat3& image_from
 void resample(ConstImageView<Rgba8> from, const std::vector<SampledRow>& rows, ImageView<Rgba8> to);
 
 /// Fragment shader (GLSL ES 3.00) that draws a rendered view onto a canvas, with premultiplied alpha, upside down as
-/// OpenGL stores images. It applies resample() where `is_sampled` is 1. Uniforms: `image` (usampler2D), `rows`
-/// (isampler2D, one column of SampledRow), `image_size` (ivec2), `height` of the canvas's view, `is_sampled`.
+/// OpenGL stores images. It mixes the images of two rings (engine::mix_pixels()) and applies resample() where
+/// `is_sampled` is 1. Uniforms: `image`, `second` (usampler2D), `weight` of the second image (q8; 0: it is not read),
+/// `rows` (isampler2D, one column of SampledRow), `image_size` (ivec2), `height` of the canvas's view, `is_sampled`.
 std::string present_shader();
 
 }  // namespace rs::web

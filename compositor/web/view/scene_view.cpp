@@ -73,10 +73,10 @@ Result<bool> SceneObject::render(const SceneSight& sight, SceneView& rendered) c
     if (!view) return false;
     rendered.view = *view;
     const RaySpaceObject& object = object_->renderer.object();
-    RS_ASSIGN_OR_RETURN(const engine::ViewRegisters registers, engine::prepare_view(object, view->camera));
+    RS_ASSIGN_OR_RETURN(const engine::MixedView rings, engine::prepare_mixed_view(object, view->camera));
     rendered.image = Image<Rgba8>(view->camera.width, view->camera.height);
     Image<std::int32_t> lambda_q20(view->camera.width, view->camera.height);
-    object_->renderer.render(registers, rendered.image, lambda_q20);
+    object_->renderer.render(rings, rendered.image, lambda_q20);
     rendered.depths = engine::depth_image(object, view->camera, lambda_q20);
     return true;
 }

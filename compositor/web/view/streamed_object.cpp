@@ -51,7 +51,7 @@ Status StreamedObject::show_arrivals() {
 bool StreamedObject::can_render(const OrbitView& view) const {
     if (!view_) return false;
     const Result<PreparedView> prepared = view_->prepare(view);
-    return prepared.ok() && view_->renderer().has_images(prepared->registers.ring);
+    return prepared.ok() && view_->renderer().has_images(prepared->rings.nearest.ring);
 }
 
 std::vector<std::uint32_t> StreamedObject::take_new_photos() {

@@ -61,6 +61,29 @@ TEST(ObjectView, LevelViewsAreTheImagesOfTheEngine) {
     EXPECT_EQ(view->image(), expected);
 }
 
+// Between two rings, the engine's mix of both.
+TEST(ObjectView, ViewsBetweenRingsAreMixed) {
+    const RaySpaceObject object = test::small_object({.rings = 2});
+    Result<ObjectView> view = ObjectView::open(file_of(object), "thing", 3);
+    ASSERT_TRUE(view) << view.error().message;
+    const CapturedCamera& captured = view->captured()[0];
+    const OrbitView between{40, 30, 0.5, view->captured()[1].elevation_rad * 0.4, captured.distance};
+    const Result<PreparedView> prepared = view->prepare(between);
+    ASSERT_TRUE(prepared) << prepared.error().message;
+    ASSERT_TRUE(prepared->rings.second.has_value());
+    ASSERT_TRUE(prepared->rows.has_value());
+    ASSERT_TRUE(view->render(between).ok());
+    const Result<engine::Renderer> renderer = engine::Renderer::create(object);
+    Image<Rgba8> upright(prepared->rings.nearest.width, prepared->rings.nearest.height);
+    renderer->render(prepared->rings, upright);
+    Image<Rgba8> expected(between.width, between.height);
+    resample(upright, *prepared->rows, expected);
+    EXPECT_EQ(view->image(), expected);
+    Image<Rgba8> nearest(upright.width(), upright.height());
+    renderer->render(prepared->rings.nearest, nearest);
+    EXPECT_NE(nearest, upright);
+}
+
 // Tilted views are resampled from an upright image: close to the image of the tilted camera.
 TEST(ObjectView, TiltedViewsAreResampled) {
     RaySpaceObject object = test::small_object_with_shape();

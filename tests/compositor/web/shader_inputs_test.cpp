@@ -55,9 +55,9 @@ TEST(ShaderInputs, UprightViewsHaveOneRowOfSetUps) {
     ASSERT_TRUE(prepared) << prepared.error().message;
     ASSERT_TRUE(prepared->rows) << "tilted views are resampled";
     ShaderInputs inputs;
-    const ShaderView view = inputs.prepare(opened->view.object(), prepared->registers);
+    const ShaderView view = inputs.prepare(opened->view.object(), prepared->rings.nearest);
     EXPECT_EQ(view.setup_rows, 1);
-    EXPECT_EQ(view.setups.size() % static_cast<std::size_t>(prepared->registers.width), 0U);
+    EXPECT_EQ(view.setups.size() % static_cast<std::size_t>(prepared->rings.nearest.width), 0U);
     EXPECT_FALSE(view.photos.empty());
 }
 
@@ -70,7 +70,7 @@ TEST(ShaderInputs, LimitsTheSetUpsOfTiltedViews) {
         const Result<PreparedView> prepared = opened->view.prepare({side, side, 0.5, 1.35, 3.5});
         ASSERT_TRUE(prepared) << prepared.error().message;
         ASSERT_FALSE(prepared->rows) << "too steep to be resampled";
-        const ShaderView view = inputs.prepare(opened->view.object(), prepared->registers);
+        const ShaderView view = inputs.prepare(opened->view.object(), prepared->rings.nearest);
         EXPECT_EQ(view.setup_rows, side);
         EXPECT_EQ(view.setups.empty(), side == 800);
     }
