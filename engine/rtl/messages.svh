@@ -296,12 +296,3 @@ typedef struct packed {
   logic [8:0] id;
   logic [8:0] begin_d;
 } returned_pixel_t;
-
-// A cell between two lines, in the memories of cell_march.
-typedef struct packed {
-  logic all_have_one;    // both lines have a surface
-  logic [7:0] deepest;   // whole steps; 0 where neither has one
-  logic [4:0] lean;
-  logic exists;
-  logic [10:0] depth_q3;
-} surface_cell_t;
