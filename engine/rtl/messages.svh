@@ -254,3 +254,45 @@ typedef struct packed {
   logic [8:0] row;
   logic [27:0] rise_q24;  // signed
 } scanned_pixel_t;
+
+// A column's part for ray_rise.
+typedef struct packed {
+  logic [3:0] view;
+  logic [1:0] kind;  // RAY_NONE, RAY_PLANE, RAY_FOOT, RAY_SHAPE
+  logic [1:0] stripe;
+  logic [3:0] column;
+  logic [29:0] lambda_foot_q20;  // signed
+  logic [24:0] inverse_r_q20;
+  logic [21:0] inverse_rho_q20;
+} rise_column_t;
+
+// A column's part for cell_march.
+typedef struct packed {
+  logic [3:0] view;
+  logic [1:0] kind;
+  logic [1:0] stripe;
+  logic [3:0] column;
+  logic [8:0] weight;
+  logic [2:0] line_part;
+  logic [2:0] p_part;
+  logic same_cells;
+} march_column_t;
+
+typedef struct packed {
+  logic [51:0] pixel;      // scanned_pixel_t
+  logic [29:0] foot_q12;   // signed
+  logic [23:0] per_d_q20;  // signed
+} band_ray_t;
+
+typedef struct packed {
+  logic [51:0] pixel;
+  logic [10:0] depth_q3;
+  logic is_final;
+  logic [8:0] next;
+  logic [4:0] lean;
+} surface_hit_t;
+
+typedef struct packed {
+  logic [8:0] id;
+  logic [8:0] begin_d;
+} returned_pixel_t;

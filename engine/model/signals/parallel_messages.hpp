@@ -122,10 +122,10 @@ struct ScannedPixel {
 
 // Ray rise output: the bands that the pixel's ray crosses (section 6).
 struct PixelBandRay {
-    static constexpr int kBits = ScannedPixel::kBits + 30 + 23;
+    static constexpr int kBits = ScannedPixel::kBits + 30 + 24;
     ScannedPixel pixel;
-    std::int32_t foot_q12 = 0;  // band at the foot
-    std::int32_t per_d_q20 = 0;
+    std::int32_t foot_q12 = 0;   // band at the foot
+    std::int32_t per_d_q20 = 0;  // up to 2^22 on either side
 };
 
 // Position at which the march along a ray continues.

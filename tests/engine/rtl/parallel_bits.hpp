@@ -27,8 +27,30 @@ inline Bits pack(const model::PatchJob& m) {
         .put(m.ends_view, 1)
         .bits();
 }
+inline BitsWriter& put(BitsWriter& writer, const model::ScannedPixel& m) {
+    return writer.put(m.id, 9).put(m.view, 4).put(m.stripe, 2).put(m.row, 9).put(m.rise_q24, 28);
+}
 inline Bits pack(const model::ScannedPixel& m) {
-    return BitsWriter(m.kBits).put(m.id, 9).put(m.view, 4).put(m.stripe, 2).put(m.row, 9).put(m.rise_q24, 28).bits();
+    BitsWriter writer(m.kBits);
+    return put(writer, m).bits();
+}
+// The part of a column that a block stores.
+inline Bits pack(const model::ColumnSetup& m, int width_bits) {
+    BitsWriter writer(width_bits);
+    writer.put(m.view, 4).put(static_cast<int>(m.kind), 2).put(m.stripe, 2).put(m.column, 4);
+    if (width_bits == m.kRiseBits) {
+        return writer.put(m.lambda_foot_q20, 30).put(m.inverse_r_q20, 25).put(m.inverse_rho_q20, 22).bits();
+    }
+    RS_CHECK(width_bits == m.kMarchBits);
+    return writer.put(m.weight, 9).put(m.line_part, 3).put(m.p_part, 3).put(m.same_cells, 1).bits();
+}
+inline Bits pack(const model::PixelBandRay& m) {
+    BitsWriter writer(m.kBits);
+    return put(writer, m.pixel).put(m.foot_q12, 30).put(m.per_d_q20, 24).bits();
+}
+inline Bits pack(const model::SurfaceHit& m) {
+    BitsWriter writer(m.kBits);
+    return put(writer, m.pixel).put(m.depth_q3, 11).put(m.final, 1).put(m.next.begin, 9).put(m.lean, 5).bits();
 }
 // An empty pixel is its number alone.
 inline Bits pack(const model::FinishedPixel& m, int width_bits) {
