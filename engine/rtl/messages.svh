@@ -254,3 +254,21 @@ typedef struct packed {
   logic [8:0] row;
   logic [27:0] rise_q24;  // signed
 } scanned_pixel_t;
+
+typedef struct packed {
+  logic [3:0] view;
+  logic [1:0] kind;  // RAY_NONE, RAY_PLANE, RAY_FOOT, RAY_SHAPE
+  logic [3:0] plane;
+  logic [22:0] x_q20;  // signed
+  logic [28:0] lambda_q20;
+  logic [30:0] n_q28;
+  logic [31:0] t_q28;  // signed
+  logic [6:0] first;
+  logic [6:0] second;
+  logic [30:0] from_first_q20;
+  logic [30:0] width_q20;
+  logic [10:0] lines;
+  logic [26:0] first_line;
+  logic lines_before;
+  logic lines_behind;
+} bracketed_ray_t;

@@ -65,5 +65,24 @@ inline Bits pack(const model::FilteredSample& m) {
     BitsWriter writer(m.kBits);
     return put(writer, m.head).put(m.inside, 1).put(m.a, 14).put(m.r, 22).put(m.g, 22).put(m.b, 22).bits();
 }
+inline Bits pack(const model::BracketedRay& m) {
+    return BitsWriter(m.kBits)
+        .put(m.view, 4)
+        .put(static_cast<int>(m.kind), 2)
+        .put(m.plane, 4)
+        .put(m.x_q20, 23)
+        .put(m.lambda_q20, 29)
+        .put(m.n_q28, 31)
+        .put(m.t_q28, 32)
+        .put(m.first, 7)
+        .put(m.second, 7)
+        .put(m.from_first_q20, 31)
+        .put(m.width_q20, 31)
+        .put(m.lines, 11)
+        .put(m.first_line, 27)
+        .put(m.lines_before, 1)
+        .put(m.lines_behind, 1)
+        .bits();
+}
 
 }  // namespace rs::engine::rtl
