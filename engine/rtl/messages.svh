@@ -272,3 +272,17 @@ typedef struct packed {
   logic lines_before;
   logic lines_behind;
 } bracketed_ray_t;
+
+// A bracketed_ray_t is followed by the lines of its first and its second image.
+typedef struct packed {
+  logic [31:0] cx_q16;  // all signed
+  logic [31:0] cy_q16;
+  logic [31:0] fl_y_q16;
+  logic [31:0] height_q20;
+  logic [31:0] l0_q20;
+  logic [31:0] l1_q30;
+  logic [31:0] q0_q16;
+  logic [31:0] q1_q16;
+  logic [31:0] l2_q30;
+  logic [31:0] q2_q16;
+} image_line_t;

@@ -121,6 +121,8 @@ void add_parallel_blocks(PackageText& package) {
     package.add("raw_block_words", kRawBlockWords);
     package.add("stripe_turn", kStripeTurn);
     package.add("bracketed_bits", BracketedRay::kBits);
+    package.add("image_line_bits", ImageLine::kBits);
+    package.add("lined_bits", RayWithLines::kBits);
     package.add("ray_none", static_cast<int>(RayKind::none));
     package.add("ray_plane", static_cast<int>(RayKind::plane));
     package.add("ray_foot", static_cast<int>(RayKind::foot));

@@ -65,9 +65,8 @@ inline Bits pack(const model::FilteredSample& m) {
     BitsWriter writer(m.kBits);
     return put(writer, m.head).put(m.inside, 1).put(m.a, 14).put(m.r, 22).put(m.g, 22).put(m.b, 22).bits();
 }
-inline Bits pack(const model::BracketedRay& m) {
-    return BitsWriter(m.kBits)
-        .put(m.view, 4)
+inline BitsWriter& put(BitsWriter& writer, const model::BracketedRay& m) {
+    return writer.put(m.view, 4)
         .put(static_cast<int>(m.kind), 2)
         .put(m.plane, 4)
         .put(m.x_q20, 23)
@@ -81,8 +80,22 @@ inline Bits pack(const model::BracketedRay& m) {
         .put(m.lines, 11)
         .put(m.first_line, 27)
         .put(m.lines_before, 1)
-        .put(m.lines_behind, 1)
-        .bits();
+        .put(m.lines_behind, 1);
+}
+inline Bits pack(const model::BracketedRay& m) {
+    BitsWriter writer(m.kBits);
+    return put(writer, m).bits();
+}
+inline Bits pack(const model::RayWithLines& m) {
+    BitsWriter writer(m.kBits);
+    put(writer, m.ray);
+    for (const model::ImageLine& line : m.image) {
+        for (const std::int32_t value : {line.cx_q16, line.cy_q16, line.fl_y_q16, line.height_q20, line.l0_q20,
+                                         line.l1_q30, line.q0_q16, line.q1_q16, line.l2_q30, line.q2_q16}) {
+            writer.put(value, 32);
+        }
+    }
+    return writer.bits();
 }
 
 }  // namespace rs::engine::rtl
