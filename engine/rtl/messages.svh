@@ -286,3 +286,78 @@ typedef struct packed {
   logic [31:0] l2_q30;
   logic [31:0] q2_q16;
 } image_line_t;
+
+typedef struct packed {
+  logic [6:0] image;
+  logic [29:0] l0_q20;  // these eight signed
+  logic [19:0] l1_q24;
+  logic [30:0] q0_q12;
+  logic [21:0] q1_q12;
+  logic [30:0] cx_q16;
+  logic [30:0] cy_q16;
+  logic [30:0] fl_y_q16;
+  logic [28:0] height_q20;
+} image_setup_t;
+
+// Column set-up; band_reader sets stripe and column.
+typedef struct packed {
+  logic [3:0] view;
+  logic [1:0] kind;  // RAY_NONE, RAY_PLANE, RAY_FOOT, RAY_SHAPE
+  logic [1:0] stripe;
+  logic [3:0] column;
+  logic [6:0] image;
+  logic [8:0] image_column;
+  logic [45:0] row_0_q16;     // signed
+  logic [35:0] row_step_q16;  // signed
+  logic [231:0] image_1;      // image_setup_t
+  logic [231:0] image_0;
+  logic [8:0] weight;
+  logic [29:0] lambda_foot_q20;  // these two signed
+  logic [30:0] lambda0_q20;
+  logic [28:0] lambda1_q21;
+  logic [24:0] inverse_r_q20;
+  logic [21:0] inverse_rho_q20;
+  logic [53:0] map_line;   // [line]
+  logic [25:0] map_place;  // [p]
+  logic [2:0] line_part;
+  logic [2:0] p_part;
+} column_setup_t;
+
+// A column's part for ray_rise.
+typedef struct packed {
+  logic [3:0] view;
+  logic [1:0] kind;  // RAY_NONE, RAY_PLANE, RAY_FOOT, RAY_SHAPE
+  logic [1:0] stripe;
+  logic [3:0] column;
+  logic [29:0] lambda_foot_q20;  // signed
+  logic [24:0] inverse_r_q20;
+  logic [21:0] inverse_rho_q20;
+} rise_column_t;
+
+// A column's part for cell_march.
+typedef struct packed {
+  logic [3:0] view;
+  logic [1:0] kind;
+  logic [1:0] stripe;
+  logic [3:0] column;
+  logic [8:0] weight;
+  logic [2:0] line_part;
+  logic [2:0] p_part;
+  logic same_cells;
+} march_column_t;
+
+// A column's part for sample_place: of an object without a shape map image_0.image and the rows.
+typedef struct packed {
+  logic [3:0] view;
+  logic [1:0] kind;
+  logic [1:0] stripe;
+  logic [3:0] column;
+  logic [45:0] row_0_q16;     // signed
+  logic [35:0] row_step_q16;  // signed
+  logic [8:0] image_column;
+  logic [231:0] image_1;      // image_setup_t
+  logic [231:0] image_0;
+  logic [8:0] weight;
+  logic [30:0] lambda0_q20;   // signed
+  logic [21:0] lambda1_q21;
+} place_column_t;

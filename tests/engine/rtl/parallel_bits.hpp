@@ -97,5 +97,44 @@ inline Bits pack(const model::RayWithLines& m) {
     }
     return writer.bits();
 }
+inline BitsWriter& put(BitsWriter& writer, const model::ImageSetup& m) {
+    return writer.put(m.image, 7)
+        .put(m.l0_q20, 30)
+        .put(m.l1_q24, 20)
+        .put(m.q0_q12, 31)
+        .put(m.q1_q12, 22)
+        .put(m.cx_q16, 31)
+        .put(m.cy_q16, 31)
+        .put(m.fl_y_q16, 31)
+        .put(m.height_q20, 29);
+}
+// All of it, or the part that a block stores; that of sample_place has the image of an object without a shape map as
+// its first one.
+inline Bits pack(const model::ColumnSetup& m, int width_bits) {
+    BitsWriter writer(width_bits);
+    writer.put(m.view, 4).put(static_cast<int>(m.kind), 2).put(m.stripe, 2).put(m.column, 4);
+    if (width_bits == m.kRiseBits) {
+        return writer.put(m.lambda_foot_q20, 30).put(m.inverse_r_q20, 25).put(m.inverse_rho_q20, 22).bits();
+    }
+    if (width_bits == m.kMarchBits) {
+        return writer.put(m.weight, 9).put(m.line_part, 3).put(m.p_part, 3).put(m.same_cells, 1).bits();
+    }
+    if (width_bits == m.kPlaceBits) {
+        model::ImageSetup first = m.images[0];
+        if (m.kind == model::RayKind::plane) first.image = m.image;
+        writer.put(m.row_0_q16, 46).put(m.row_step_q16, 36).put(m.image_column, 9);
+        return put(put(writer, m.images[1]), first)
+            .put(m.weight, 9)
+            .put(m.lambda0_q20, 31)
+            .put(m.lambda1_q21, 22)
+            .bits();
+    }
+    writer.put(m.image, 7).put(m.image_column, 9).put(m.row_0_q16, 46).put(m.row_step_q16, 36);
+    put(put(writer, m.images[1]), m.images[0]).put(m.weight, 9);
+    writer.put(m.lambda_foot_q20, 30).put(m.lambda0_q20, 31).put(m.lambda1_q21, 29);
+    writer.put(m.inverse_r_q20, 25).put(m.inverse_rho_q20, 22);
+    writer.put(m.map_line[1], 27).put(m.map_line[0], 27).put(m.map_place[1], 13).put(m.map_place[0], 13);
+    return writer.put(m.line_part, 3).put(m.p_part, 3).bits();
+}
 
 }  // namespace rs::engine::rtl

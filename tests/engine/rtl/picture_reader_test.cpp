@@ -1,6 +1,6 @@
 #include "engine/model/blocks/parallel/image_reader.hpp"
 #include "tests/engine/rtl/cosimulation.hpp"
-#include "tests/engine/rtl/random_registers.hpp"
+#include "tests/engine/rtl/random_rays.hpp"
 
 #include <Vpicture_reader.h>
 #include <Vpicture_reader_mutants.h>
@@ -12,7 +12,8 @@ template <class Module>
 class PictureReaderBench final : public Bench<Module> {
 public:
     PictureReaderBench(Module& module, Random& random) : Bench<Module>(module, random) {
-        this->input(bracketed_, RS_RTL_PORTS(module, bracketed), [this] { return ray(); });
+        this->input(bracketed_, RS_RTL_PORTS(module, bracketed),
+                    [this] { return random_bracketed_ray(registers_, this->random_); });
         this->output(line_reads_, RS_RTL_PORTS(module, line_reads), [this](const model::MemoryRead&) { ++requested_; });
         this->input(
             line_words_, RS_RTL_PORTS(module, line_words), [this] { return word(); },
@@ -21,29 +22,6 @@ public:
     }
 
 private:
-    model::BracketedRay ray() {
-        Random& random = this->random_;
-        model::BracketedRay ray;
-        ray.view = random_view(registers_, random);
-        const model::ObjectRegisters& object = registers_.object_of(ray.view);
-        const auto image = [&] { return static_cast<int>(random.in(0, object.images - 1)); };
-        constexpr std::int64_t kMost = (std::int64_t{1} << 31) - 1;
-        ray.kind = static_cast<model::RayKind>(random.in(0, 3));
-        ray.plane = static_cast<int>(random.in(0, object.planes - 1));
-        ray.x_q20 = random.of_any_length(23);
-        ray.lambda_q20 = random.in(0, (1 << 29) - 1);
-        ray.n_q28 = random.in(0, kMost);
-        ray.t_q28 = random.of_any_length(32);
-        ray.first = image();
-        ray.second = image();
-        ray.from_first_q20 = random.in(0, kMost);
-        ray.width_q20 = random.in(0, kMost);
-        ray.lines = static_cast<int>(random.in(0, 1024));
-        ray.first_line = random.in(0, (1 << 27) - 1);
-        ray.lines_before = random.chance(0.5);
-        ray.lines_behind = random.chance(0.5);
-        return ray;
-    }
     model::MemoryWord word() {
         --requested_;
         return {this->random_.word()};
