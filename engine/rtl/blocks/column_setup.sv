@@ -223,8 +223,6 @@ module column_setup (
   assign line = is_second ? line_1 : line_0;
   assign place_q20 = wide_23(p_q20) + wide(shape_p_half_q20);
   always_comb begin
-    image_a = 35'd0;
-    image_b = 35'd0;
     case (cycle[3:0])
       4'd0, 4'd4: image_a = wide_23(xf_q20);
       4'd1, 4'd5: image_a = wide_23(zf_q20);
@@ -302,7 +300,7 @@ module column_setup (
     endcase
   end
 
-  // Of the image whose products leave: linear in the depth.
+  // Values of an image that are linear in the depth, from the products that leave.
   logic [7:0] left;  // cycle of the operands of this product
   logic [29:0] l_foot_q20;
   /* verilator lint_off UNUSEDSIGNAL */
@@ -423,7 +421,7 @@ module column_setup (
                         line_of_gap > last_of_gap ? last_of_gap : line_of_gap;
         number <= {2'd0, ray.first_line} + {{17{clamped_line[11]}}, clamped_line};
         map_line[27*n+:27] <= number[28] ? number[26:0] + shape_lines :
-                       number >= {2'd0, shape_lines} ? number[26:0] - shape_lines : number[26:0];
+                              number >= {2'd0, shape_lines} ? number[26:0] - shape_lines : number[26:0];
         map_place[13*n+:13] <= place < 16'sd0 ? 13'd0 : place > last_p_cell ? last_p_cell[12:0] : place[12:0];
       end
     end

@@ -39,7 +39,7 @@ private:
         }
         return file;
     }
-    // Of an object with a shape map, whose numbers are 1 in magnitude at most (l1, l2) or 2^14 px (q0, q1, q2).
+    // Line of an object with a shape map: numbers of 1 in magnitude at most (l1, l2) or 2^14 px (q0, q1, q2).
     model::ImageLine line() {
         Random& random = this->random_;
         const bool is_large = random.chance(0.5);
