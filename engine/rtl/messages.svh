@@ -255,6 +255,74 @@ typedef struct packed {
   logic [27:0] rise_q24;  // signed
 } scanned_pixel_t;
 
+typedef struct packed {
+  logic [3:0] view;
+  logic [1:0] kind;  // RAY_NONE, RAY_PLANE, RAY_FOOT, RAY_SHAPE
+  logic [3:0] plane;
+  logic [22:0] x_q20;  // signed
+  logic [28:0] lambda_q20;
+  logic [30:0] n_q28;
+  logic [31:0] t_q28;  // signed
+  logic [6:0] first;
+  logic [6:0] second;
+  logic [30:0] from_first_q20;
+  logic [30:0] width_q20;
+  logic [10:0] lines;
+  logic [26:0] first_line;
+  logic lines_before;
+  logic lines_behind;
+} bracketed_ray_t;
+
+// A bracketed_ray_t is followed by the lines of its first and its second image.
+typedef struct packed {
+  logic [31:0] cx_q16;  // all signed
+  logic [31:0] cy_q16;
+  logic [31:0] fl_y_q16;
+  logic [31:0] height_q20;
+  logic [31:0] l0_q20;
+  logic [31:0] l1_q30;
+  logic [31:0] q0_q16;
+  logic [31:0] q1_q16;
+  logic [31:0] l2_q30;
+  logic [31:0] q2_q16;
+} image_line_t;
+
+typedef struct packed {
+  logic [6:0] image;
+  logic [29:0] l0_q20;  // these eight signed
+  logic [19:0] l1_q24;
+  logic [30:0] q0_q12;
+  logic [21:0] q1_q12;
+  logic [30:0] cx_q16;
+  logic [30:0] cy_q16;
+  logic [30:0] fl_y_q16;
+  logic [28:0] height_q20;
+} image_setup_t;
+
+// Column set-up; band_reader sets stripe and column.
+typedef struct packed {
+  logic [3:0] view;
+  logic [1:0] kind;  // RAY_NONE, RAY_PLANE, RAY_FOOT, RAY_SHAPE
+  logic [1:0] stripe;
+  logic [3:0] column;
+  logic [6:0] image;
+  logic [8:0] image_column;
+  logic [45:0] row_0_q16;     // signed
+  logic [35:0] row_step_q16;  // signed
+  logic [231:0] image_1;      // image_setup_t
+  logic [231:0] image_0;
+  logic [8:0] weight;
+  logic [29:0] lambda_foot_q20;  // these two signed
+  logic [30:0] lambda0_q20;
+  logic [28:0] lambda1_q21;
+  logic [24:0] inverse_r_q20;
+  logic [21:0] inverse_rho_q20;
+  logic [53:0] map_line;   // [line]
+  logic [25:0] map_place;  // [p]
+  logic [2:0] line_part;
+  logic [2:0] p_part;
+} column_setup_t;
+
 // A column's part for ray_rise.
 typedef struct packed {
   logic [3:0] view;
@@ -296,3 +364,19 @@ typedef struct packed {
   logic [8:0] id;
   logic [8:0] begin_d;
 } returned_pixel_t;
+
+// A column's part for sample_place: of an object without a shape map image_0.image and the rows.
+typedef struct packed {
+  logic [3:0] view;
+  logic [1:0] kind;
+  logic [1:0] stripe;
+  logic [3:0] column;
+  logic [45:0] row_0_q16;     // signed
+  logic [35:0] row_step_q16;  // signed
+  logic [8:0] image_column;
+  logic [231:0] image_1;      // image_setup_t
+  logic [231:0] image_0;
+  logic [8:0] weight;
+  logic [30:0] lambda0_q20;   // signed
+  logic [21:0] lambda1_q21;
+} place_column_t;

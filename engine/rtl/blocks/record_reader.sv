@@ -1,6 +1,7 @@
 // Record reader of a hop (engine/model/blocks/decompression/record_reading.hpp): keeps the first word of the tile, finds
 // a block's record behind those of the blocks before it, and requests its words, one per cycle. One cycle more for a new
-// tile. The sizes of up to 15 records are summed in one cycle.
+// tile, in which the sizes of its records are looked up: all requests of a tile are of one object. Those of up to 15
+// records are summed in one cycle.
 module record_reader (
     input  logic clk,
     input  logic rst,
@@ -58,15 +59,17 @@ module record_reader (
   endfunction
   logic [3:0] block;
   logic [2:0] class_number;
-  logic is_predicted_image;
-  logic [31:0] sizes;
+  logic is_predicted_image, loads_predicted_image;
+  logic [31:0] loaded_sizes;  // of the classes
+  logic [63:0] sizes;         // of 4 bits: of the records of the tile
   logic [7:0] offset;
   logic [2:0] words;
   assign head = tile.kind == 2'(board::TILE_NOTHING) ? 64'd0 : word;
   assign block = {request.column[4:3], request.block_row[1:0]};
   assign class_number = head[{2'b0, block} * 6'd3+:3];
   assign is_predicted_image = head[55:48] != 8'd255;
-  assign sizes = is_predicted_image ? object_predicted_sizes : object_record_sizes;
+  assign loads_predicted_image = tile_words_data[55:48] != 8'd255;
+  assign loaded_sizes = loads_predicted_image ? object_predicted_sizes : object_record_sizes;
   // A tree of adders: four levels.
   logic [63:0] addends;  // of 4 bits: the sizes of the blocks before it
   logic [39:0] pairs;    // of 5 bits
@@ -74,7 +77,10 @@ module record_reader (
   genvar n;
   generate
     for (n = 0; n < 15; n = n + 1) begin : blocks
-      assign addends[4*n+:4] = 4'(n) < block ? size_of(head[3*n+:3], sizes) : 4'd0;
+      assign addends[4*n+:4] = 4'(n) < block ? sizes[4*n+:4] : 4'd0;
+    end
+    for (n = 0; n < 16; n = n + 1) begin : records_of_tile
+      always_ff @(posedge clk) if (takes_word) sizes[4*n+:4] <= size_of(tile_words_data[3*n+:3], loaded_sizes);
     end
     for (n = 0; n < 8; n = n + 1) begin : sums_of_pairs
       assign pairs[5*n+:5] = {1'b0, addends[8*n+:4]} + {1'b0, addends[8*n+4+:4]};
@@ -85,7 +91,7 @@ module record_reader (
   endgenerate
   assign addends[63:60] = 4'd0;
   assign offset = {1'b0, {1'b0, fours[5:0]} + {1'b0, fours[11:6]}} + {1'b0, {1'b0, fours[17:12]} + {1'b0, fours[23:18]}};
-  assign end_in_word = {3'd0, offset[1:0]} + {1'b0, size_of(class_number, sizes)} + 5'd3;
+  assign end_in_word = {3'd0, offset[1:0]} + {1'b0, sizes[{block, 2'b0}+:4]} + 5'd3;
   assign words = end_in_word[4:2];
 
   logic reads_first;

@@ -58,6 +58,8 @@ void add_fifos(PackageText& package, const BoardTop& top) {
 void add_latencies(PackageText& package) {
     package.add("multiply_cycles", kMultiplyCycles);
     package.add("divide_cycles", kDivideCycles);
+    package.add("product_cycles", kProductCycles);
+    package.add("root_cycles", kRootCycles);
     package.add("no_ray_latency", RayPosition::kNoRayLatency);
     package.add("ray_position_miss_latency", RayPosition::kMissLatency);
     package.add("ray_position_latency", RayPosition::kLatency);
@@ -129,6 +131,19 @@ void add_parallel_blocks(PackageText& package) {
     package.add("texel_filter_stages", TexelFilter::kStages);
     package.add("raw_block_words", kRawBlockWords);
     package.add("stripe_turn", kStripeTurn);
+    package.add("bracketed_bits", BracketedRay::kBits);
+    package.add("image_line_bits", ImageLine::kBits);
+    package.add("lined_bits", RayWithLines::kBits);
+    package.add("set_up_bits", ColumnSetup::kBits);
+    package.add("rise_columns_bits", ColumnSetup::kRiseBits);
+    package.add("march_columns_bits", ColumnSetup::kMarchBits);
+    package.add("place_columns_bits", ColumnSetup::kPlaceBits);
+    package.add("column_setup_too_far_latency", ColumnSetupStage::kTooFarLatency);
+    package.add("column_setup_latency", ColumnSetupStage::kShapeLatency);
+    package.add("ray_none", static_cast<int>(RayKind::none));
+    package.add("ray_plane", static_cast<int>(RayKind::plane));
+    package.add("ray_foot", static_cast<int>(RayKind::foot));
+    package.add("ray_shape", static_cast<int>(RayKind::shape));
 }
 
 void add_limits(PackageText& package, const BoardLimits& limits) {

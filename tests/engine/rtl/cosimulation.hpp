@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <deque>
 #include <functional>
@@ -78,11 +79,13 @@ public:
     virtual std::string drain() { return {}; }  // compares the messages left in an output FIFO
 };
 
+inline constexpr int kUsualBits = 384;  // all but the widest messages have as many or fewer
+
 // A random value on the data lines of an empty FIFO: the module must not depend on it.
-inline Bits random_bits(Random& random) {
+inline Bits random_bits(Random& random, int width_bits = kUsualBits) {
     Bits bits;
-    constexpr std::size_t kMessageWords = 12;
-    for (std::size_t n = 0; n < kMessageWords; ++n) bits.words[n] = static_cast<std::uint32_t>(random.word());
+    const auto words = static_cast<std::size_t>(std::max(kUsualBits, width_bits) + 31) / 32;
+    for (std::size_t n = 0; n < words; ++n) bits.words[n] = static_cast<std::uint32_t>(random.word());
     return bits;
 }
 
@@ -116,8 +119,8 @@ public:
     }
     void drive(Random& random) override {
         valid_ = fifo_.can_pop();
-        write_port(data_, valid_ != 0 ? pack(fifo_.front(), fifo_.width_bits()) : random_bits(random),
-                   fifo_.width_bits());
+        const int width_bits = fifo_.width_bits();
+        write_port(data_, valid_ != 0 ? pack(fifo_.front(), width_bits) : random_bits(random, width_bits), width_bits);
         before_ = fifo_.count();
     }
     void sample() override { rtl_popped_ = valid_ != 0 && ready_ != 0; }

@@ -39,19 +39,6 @@ public:
 private:
     static constexpr model::StripeShare kShare{kPipe, 16};
 
-    // Every view has columns of the pipe; most of its last stripe is narrow.
-    static model::RegisterFile random_views(Random& random) {
-        model::RegisterFile file = random_registers(random);
-        auto& views = file.banks[static_cast<std::size_t>(file.active)].views;
-        for (std::size_t n = 0; n < views.size(); ++n) {
-            const int first = kShare.first_column(static_cast<int>(n));
-            const std::int64_t most = random.chance(0.7) ? std::min(512, first + 20) : 512;
-            views[n].width = static_cast<int>(random.in(first + 1, most));
-            if (first + 256 <= 512 && random.chance(0.2)) views[n].width = first + 256;  // up to its next stripe
-            views[n].height = static_cast<int>(random.chance(0.8) ? random.in(1, 40) : random.in(1, 512));
-        }
-        return file;
-    }
     model::ViewJob job() { return {random_view(registers_, this->random_)}; }
     model::Block& block() override { return block_; }
     void look_up() override {
@@ -62,7 +49,7 @@ private:
         this->module_.view_sy_q32 = static_cast<QData>(view.sy_q32) & ((QData{1} << 34) - 1);
     }
 
-    model::RegisterFile registers_ = random_views(this->random_);
+    model::RegisterFile registers_ = random_stripe_views(kShare, this->random_);
     int patches_left_ = 0;
     int views_left_ = 0;
     model::Fifo<model::ViewJob> jobs_{"scan_jobs", 4, model::ViewJob::kBits};

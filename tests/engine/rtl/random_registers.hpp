@@ -2,6 +2,7 @@
 // Random contents of the register file, within the widths of the registers and the limits of the board prototype-2000.
 
 #include "engine/model/signals/registers.hpp"
+#include "engine/model/signals/stripes.hpp"
 #include "tests/engine/rtl/cosimulation.hpp"
 
 namespace rs::engine::rtl {
@@ -82,6 +83,20 @@ inline model::RegisterFile random_registers(Random& random) {
             file.buffer_words[b].push_back(view.words());
             file.buffer_pitches[b].push_back(view.words_per_column());
         }
+    }
+    return file;
+}
+
+/// Views of which every one has columns of the pipe `share`; most of its last stripe is narrow.
+inline model::RegisterFile random_stripe_views(const model::StripeShare& share, Random& random) {
+    model::RegisterFile file = random_registers(random);
+    auto& views = file.banks[static_cast<std::size_t>(file.active)].views;
+    for (std::size_t n = 0; n < views.size(); ++n) {
+        const int first = share.first_column(static_cast<int>(n));
+        const std::int64_t most = random.chance(0.7) ? std::min(512, first + 20) : 512;
+        views[n].width = static_cast<int>(random.in(first + 1, most));
+        if (first + 256 <= 512 && random.chance(0.2)) views[n].width = first + 256;  // up to its next stripe
+        views[n].height = static_cast<int>(random.chance(0.8) ? random.in(1, 40) : random.in(1, 512));
     }
     return file;
 }

@@ -26,7 +26,8 @@ private:
         Random& random = this->random_;
         model::RequestedTile tile;
         tile.request = random_request(registers_, last_, random);
-        const bool begins = !has_tile_ || random.chance(0.5);
+        // The requests of a tile are of one object: the first one of an object begins a tile (tile_finder).
+        const bool begins = !has_tile_ || tile.request.first || random.chance(0.5);
         has_tile_ = true;
         if (!begins) return tile;
         tile.kind = random.chance(0.8) ? model::RequestedTile::Kind::read : model::RequestedTile::Kind::nothing;
