@@ -254,3 +254,52 @@ typedef struct packed {
   logic [8:0] row;
   logic [27:0] rise_q24;  // signed
 } scanned_pixel_t;
+
+// Column set-up, as sample_place stores it: of an object without a shape map image_0.image and the rows.
+typedef struct packed {
+  logic [6:0] image;
+  logic [29:0] l0_q20;  // these eight signed
+  logic [19:0] l1_q24;
+  logic [30:0] q0_q12;
+  logic [21:0] q1_q12;
+  logic [30:0] cx_q16;
+  logic [30:0] cy_q16;
+  logic [30:0] fl_y_q16;
+  logic [28:0] height_q20;
+} image_setup_t;
+
+typedef struct packed {
+  logic [3:0] view;
+  logic [1:0] kind;  // RAY_NONE, RAY_PLANE, RAY_FOOT, RAY_SHAPE
+  logic [1:0] stripe;
+  logic [3:0] column;
+  logic [45:0] row_0_q16;     // signed
+  logic [35:0] row_step_q16;  // signed
+  logic [8:0] image_column;
+  logic [231:0] image_1;      // image_setup_t
+  logic [231:0] image_0;
+  logic [8:0] weight;
+  logic [30:0] lambda0_q20;   // signed
+  logic [21:0] lambda1_q21;
+} place_column_t;
+
+typedef struct packed {
+  logic [51:0] pixel;  // scanned_pixel_t
+  logic [10:0] depth_q3;
+  logic is_final;
+  logic [8:0] next;
+  logic [4:0] lean;
+} surface_hit_t;
+
+typedef struct packed {
+  logic [30:0] head;  // sample_head_t
+  logic [3:0] view;
+  logic is_inside;
+  logic [6:0] image;
+  logic [8:0] left;
+  logic [8:0] top;
+  logic [2:0] fx;
+  logic [2:0] fy;
+  logic right_is_left;
+  logic bottom_is_top;
+} placed_sample_t;

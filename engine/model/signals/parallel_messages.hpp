@@ -77,7 +77,7 @@ struct ColumnSetup {
         kHeadBits + 7 + 9 + 46 + 36 + 2 * ImageSetup::kBits + 9 + 3 * 30 + 25 + 22 + 2 * 27 + 2 * 13 + 2 * 3;
     static constexpr int kRiseBits = kHeadBits + 30 + 25 + 22;
     static constexpr int kMarchBits = kHeadBits + 9 + 3 + 3 + 1;
-    static constexpr int kPlaceBits = kHeadBits + 46 + 36 + 9 + 2 * ImageSetup::kBits + 9 + 30 + 23;
+    static constexpr int kPlaceBits = kHeadBits + 46 + 36 + 9 + 2 * ImageSetup::kBits + 9 + 31 + 22;
     int view = 0;
     RayKind kind = RayKind::none;
     int stripe = 0;           // set by the band reader

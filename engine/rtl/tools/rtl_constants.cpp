@@ -120,6 +120,14 @@ void add_parallel_blocks(PackageText& package) {
     package.add("texel_filter_stages", TexelFilter::kStages);
     package.add("raw_block_words", kRawBlockWords);
     package.add("stripe_turn", kStripeTurn);
+    package.add("ray_none", static_cast<int>(RayKind::none));
+    package.add("ray_plane", static_cast<int>(RayKind::plane));
+    package.add("ray_foot", static_cast<int>(RayKind::foot));
+    package.add("ray_shape", static_cast<int>(RayKind::shape));
+    package.add("place_columns_bits", ColumnSetup::kPlaceBits);
+    package.add("met_bits", SurfaceHit::kBits);
+    package.add("placed_samples_bits", PlacedSample::kBits);
+    package.add("sample_place_stages", SamplePlace::kStages);
 }
 
 void add_limits(PackageText& package, const BoardLimits& limits) {

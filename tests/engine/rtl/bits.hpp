@@ -16,9 +16,9 @@
 
 namespace rs::engine::rtl {
 
-/// Value of a port of at most 512 bits, in words of 32 bits, the lowest first.
+/// Value of a port of at most 896 bits, in words of 32 bits, the lowest first.
 struct Bits {
-    static constexpr int kWords = 16;
+    static constexpr int kWords = 28;
     std::array<std::uint32_t, kWords> words{};
     bool operator==(const Bits&) const = default;
 };

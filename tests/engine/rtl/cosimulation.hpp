@@ -79,10 +79,11 @@ public:
 };
 
 // A random value on the data lines of an empty FIFO: the module must not depend on it.
-inline Bits random_bits(Random& random) {
+inline Bits random_bits(Random& random, int width_bits = 0) {
     Bits bits;
-    constexpr std::size_t kMessageWords = 12;
-    for (std::size_t n = 0; n < kMessageWords; ++n) bits.words[n] = static_cast<std::uint32_t>(random.word());
+    constexpr int kLeastWords = 12;
+    const auto words = static_cast<std::size_t>(std::max(kLeastWords, (width_bits + 31) / 32));
+    for (std::size_t n = 0; n < words; ++n) bits.words[n] = static_cast<std::uint32_t>(random.word());
     return bits;
 }
 
@@ -116,7 +117,8 @@ public:
     }
     void drive(Random& random) override {
         valid_ = fifo_.can_pop();
-        write_port(data_, valid_ != 0 ? pack(fifo_.front(), fifo_.width_bits()) : random_bits(random),
+        write_port(data_,
+                   valid_ != 0 ? pack(fifo_.front(), fifo_.width_bits()) : random_bits(random, fifo_.width_bits()),
                    fifo_.width_bits());
         before_ = fifo_.count();
     }

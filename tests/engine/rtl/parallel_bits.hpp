@@ -65,5 +65,60 @@ inline Bits pack(const model::FilteredSample& m) {
     BitsWriter writer(m.kBits);
     return put(writer, m.head).put(m.inside, 1).put(m.a, 14).put(m.r, 22).put(m.g, 22).put(m.b, 22).bits();
 }
+inline BitsWriter& put(BitsWriter& writer, const model::ImageSetup& m, int image) {
+    return writer.put(image, 7)
+        .put(m.l0_q20, 30)
+        .put(m.l1_q24, 20)
+        .put(m.q0_q12, 31)
+        .put(m.q1_q12, 22)
+        .put(m.cx_q16, 31)
+        .put(m.cy_q16, 31)
+        .put(m.fl_y_q16, 31)
+        .put(m.height_q20, 29);
+}
+// The part of a column that sample_place stores. The image of an object without a shape map is its first.
+inline Bits pack_place_column(const model::ColumnSetup& m) {
+    BitsWriter writer(m.kPlaceBits);
+    writer.put(m.view, 4)
+        .put(static_cast<int>(m.kind), 2)
+        .put(m.stripe, 2)
+        .put(m.column, 4)
+        .put(m.row_0_q16, 46)
+        .put(m.row_step_q16, 36)
+        .put(m.image_column, 9);
+    put(writer, m.images[1], m.images[1].image);
+    put(writer, m.images[0], m.kind == model::RayKind::plane ? m.image : m.images[0].image);
+    return writer.put(m.weight, 9).put(m.lambda0_q20, 31).put(m.lambda1_q21, 22).bits();
+}
+inline Bits pack(const model::ColumnSetup& m, int /*width_bits*/) {
+    return pack_place_column(m);
+}
+inline Bits pack(const model::SurfaceHit& m) {
+    return BitsWriter(m.kBits)
+        .put(m.pixel.id, 9)
+        .put(m.pixel.view, 4)
+        .put(m.pixel.stripe, 2)
+        .put(m.pixel.row, 9)
+        .put(m.pixel.rise_q24, 28)
+        .put(m.depth_q3, 11)
+        .put(m.final, 1)
+        .put(m.next.begin, 9)
+        .put(m.lean, 5)
+        .bits();
+}
+inline Bits pack(const model::PlacedSample& m) {
+    BitsWriter writer(m.kBits);
+    return put(writer, m.head)
+        .put(m.view, 4)
+        .put(m.inside, 1)
+        .put(m.image, 7)
+        .put(m.left, 9)
+        .put(m.top, 9)
+        .put(m.fx, 3)
+        .put(m.fy, 3)
+        .put(m.right_is_left, 1)
+        .put(m.bottom_is_top, 1)
+        .bits();
+}
 
 }  // namespace rs::engine::rtl
