@@ -303,3 +303,13 @@ typedef struct packed {
   logic right_is_left;
   logic bottom_is_top;
 } placed_sample_t;
+
+typedef struct packed {
+  logic [30:0] head;
+  logic is_inside;
+  logic [2:0] fx;
+  logic [2:0] fy;
+  logic [27:0] lines;   // [texel]: (left, top), (left, bottom), (right, top), (right, bottom)
+  logic [23:0] texels;  // [texel]: column and row in the block
+  logic [2:0] fills;
+} waiting_sample_t;

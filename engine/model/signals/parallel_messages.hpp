@@ -187,6 +187,11 @@ struct PlacedSample {
     bool right_is_left = false, bottom_is_top = false;  // at the image border
 };
 
+// Samples that can be between texel_tags and texel_cache: the depth of the FIFO `waiting`. They are numbered modulo
+// twice as many.
+inline constexpr int kWaitingSamples = 512;
+inline constexpr std::uint32_t kSampleNumbers = 2 * kWaitingSamples;
+
 // Request for a block of 8x8 texels, to be written into a line of the cache.
 struct TexelFill {
     static constexpr int kBits = 4 + 7 + 6 + 6 + 7 + 10;
@@ -195,13 +200,13 @@ struct TexelFill {
     int block_column = 0;
     int block_row = 0;
     int line = 0;
-    std::uint64_t guard = 0;  // number of samples that must be read before the line is written
+    std::uint32_t guard = 0;  // number of the last sample that must be read before the line is written
 };
 
 struct FillTarget {
     static constexpr int kBits = 7 + 10;
     int line = 0;
-    std::uint64_t guard = 0;
+    std::uint32_t guard = 0;
 };
 
 struct FillKind {

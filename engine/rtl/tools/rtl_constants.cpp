@@ -128,6 +128,8 @@ void add_parallel_blocks(PackageText& package) {
     package.add("met_bits", SurfaceHit::kBits);
     package.add("placed_samples_bits", PlacedSample::kBits);
     package.add("sample_place_stages", SamplePlace::kStages);
+    package.add("waiting_bits", WaitingSample::kBits);
+    package.add("waiting_samples", kWaitingSamples);
 }
 
 void add_limits(PackageText& package, const BoardLimits& limits) {

@@ -46,11 +46,11 @@ inline Bits pack(const model::TexelFill& m) {
         .put(m.block_column, 6)
         .put(m.block_row, 6)
         .put(m.line, 7)
-        .put(static_cast<std::int64_t>(m.guard), 10)
+        .put(m.guard, 10)
         .bits();
 }
 inline Bits pack(const model::FillTarget& m) {
-    return BitsWriter(m.kBits).put(m.line, 7).put(static_cast<std::int64_t>(m.guard), 10).bits();
+    return BitsWriter(m.kBits).put(m.line, 7).put(m.guard, 10).bits();
 }
 inline Bits pack(const model::FillKind& m) {
     return BitsWriter(m.kBits).put(m.coded, 1).bits();
@@ -119,6 +119,13 @@ inline Bits pack(const model::PlacedSample& m) {
         .put(m.right_is_left, 1)
         .put(m.bottom_is_top, 1)
         .bits();
+}
+inline Bits pack(const model::WaitingSample& m) {
+    BitsWriter writer(m.kBits);
+    put(writer, m.head).put(m.inside, 1).put(m.fx, 3).put(m.fy, 3);
+    for (std::size_t n = m.line.size(); n-- > 0;) writer.put(m.line[n], 7);
+    for (std::size_t n = m.texel.size(); n-- > 0;) writer.put(m.texel[n], 6);
+    return writer.put(m.fills, 3).bits();
 }
 
 }  // namespace rs::engine::rtl

@@ -23,7 +23,9 @@ bool TexelCache::read() {
 }
 
 bool TexelCache::write(std::uint64_t samples_read) {
-    if (!texels_.can_pop() || !targets_.can_pop() || samples_read < targets_.front().guard) return false;
+    if (!texels_.can_pop() || !targets_.can_pop()) return false;
+    // The guard is within 512 samples before and 511 behind those read (texel_tags.hpp).
+    if ((samples_read - targets_.front().guard) % kSampleNumbers > kWaitingSamples) return false;
     lines_[static_cast<std::size_t>(targets_.front().line)][static_cast<std::size_t>(written_)] = texels_.pop().rgba;
     if (++written_ < kLineTexels) return true;
     targets_.pop();
