@@ -230,7 +230,7 @@ struct TexelQuad {
     SampleHead head;
     bool inside = false;
     int fx = 0, fy = 0;
-    std::array<std::uint32_t, 4> rgba{};
+    std::array<std::uint32_t, 4> rgba{};  // 0 without a weight
 };
 
 struct FilteredSample {

@@ -15,6 +15,7 @@ bool TexelCache::read() {
     fills_ -= sample.fills;
     TexelQuad quad{sample.head, sample.inside, sample.fx, sample.fy, {}};
     for (std::size_t n = 0; n < 4; ++n) {
+        if (!sample.inside || (n >= 2 && sample.fx == 0) || (n % 2 == 1 && sample.fy == 0)) continue;
         quad.rgba[n] = lines_[static_cast<std::size_t>(sample.line[n])][static_cast<std::size_t>(sample.texel[n])];
     }
     out_.push(quad);

@@ -166,6 +166,7 @@ struct CacheBench {
     void wait_for(int line, int fills) {
         WaitingSample sample;
         sample.inside = true;
+        sample.fx = sample.fy = 4;
         sample.line = {line, line, line, line};
         sample.fills = fills;
         put(in, sample);
@@ -209,6 +210,31 @@ TEST(ParallelTexelTiming, TexelCacheWritesNoLineBeforeItsLastReaderHasRead) {
     c.out.pop();
     c.out.commit();
     EXPECT_EQ(c.out.front().rgba[0], 8U);
+}
+
+TEST(ParallelTexelTiming, TexelCacheGivesNoTexelsWithoutWeight) {
+    CacheBench c;
+    put(c.targets, {0, 0});
+    c.texels_of_a_block(64, 7);
+    for (int n = 0; n < 64; ++n) c.bench.step(c.block);
+    for (const bool inside : {false, true}) {
+        for (const int fx : {0, 1}) {
+            for (const int fy : {0, 1}) {
+                WaitingSample sample;
+                sample.inside = inside;
+                sample.fx = fx;
+                sample.fy = fy;
+                put(c.in, sample);
+                EXPECT_EQ(c.bench.cycles_until(c.block, c.out), 1);
+                const auto texel = [&](bool has_weight) { return inside && has_weight ? 7U : 0U; };
+                const std::array<std::uint32_t, 4> expected = {texel(true), texel(fy > 0), texel(fx > 0),
+                                                               texel(fx > 0 && fy > 0)};
+                EXPECT_EQ(c.out.front().rgba, expected);
+                c.out.pop();
+                c.out.commit();
+            }
+        }
+    }
 }
 
 TEST(ParallelTexelTiming, TexelCacheComparesGuardsModulo1024) {
