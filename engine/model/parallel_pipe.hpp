@@ -72,7 +72,7 @@ struct ParallelFifos : FifoGroup {
     Fifo<SurfaceHit> met{*this, "met", 8, SurfaceHit::kBits};
     Fifo<PlacedSample> placed{*this, "placed", 4, PlacedSample::kBits};
     Fifo<TexelFill> fills{*this, "fills", 8, TexelFill::kBits};
-    Fifo<WaitingSample> waiting{*this, "waiting", 512, WaitingSample::kBits};
+    Fifo<WaitingSample> waiting{*this, "waiting", kWaitingSamples, WaitingSample::kBits};
     Fifo<FillTarget> targets{*this, "targets", 16, FillTarget::kBits};
     Fifo<FillKind> kinds{*this, "kinds", 16, FillKind::kBits};
     Fifo<MemoryRead> raw_reads{*this, "raw_reads", 8, MemoryRead::kBits};

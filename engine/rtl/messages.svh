@@ -380,3 +380,26 @@ typedef struct packed {
   logic [30:0] lambda0_q20;   // signed
   logic [21:0] lambda1_q21;
 } place_column_t;
+
+typedef struct packed {
+  logic [30:0] head;  // sample_head_t
+  logic [3:0] view;
+  logic is_inside;
+  logic [6:0] image;
+  logic [8:0] left;
+  logic [8:0] top;
+  logic [2:0] fx;
+  logic [2:0] fy;
+  logic right_is_left;
+  logic bottom_is_top;
+} placed_sample_t;
+
+typedef struct packed {
+  logic [30:0] head;
+  logic is_inside;
+  logic [2:0] fx;
+  logic [2:0] fy;
+  logic [27:0] lines;   // [texel]: (left, top), (left, bottom), (right, top), (right, bottom)
+  logic [23:0] texels;  // [texel]: column and row in the block
+  logic [2:0] fills;
+} waiting_sample_t;

@@ -77,7 +77,7 @@ struct ColumnSetup {
         kHeadBits + 7 + 9 + 46 + 36 + 2 * ImageSetup::kBits + 9 + 3 * 30 + 25 + 22 + 2 * 27 + 2 * 13 + 2 * 3;
     static constexpr int kRiseBits = kHeadBits + 30 + 25 + 22;
     static constexpr int kMarchBits = kHeadBits + 9 + 3 + 3 + 1;
-    static constexpr int kPlaceBits = kHeadBits + 46 + 36 + 9 + 2 * ImageSetup::kBits + 9 + 30 + 23;
+    static constexpr int kPlaceBits = kHeadBits + 46 + 36 + 9 + 2 * ImageSetup::kBits + 9 + 31 + 22;
     int view = 0;
     RayKind kind = RayKind::none;
     int stripe = 0;           // set by the band reader
@@ -186,6 +186,11 @@ struct PlacedSample {
     bool right_is_left = false, bottom_is_top = false;  // at the image border
 };
 
+// Samples that can be between texel_tags and texel_cache: the depth of the FIFO `waiting`. They are numbered modulo
+// twice as many.
+inline constexpr int kWaitingSamples = 512;
+inline constexpr std::uint32_t kSampleNumbers = 2 * kWaitingSamples;
+
 // Request for a block of 8x8 texels, to be written into a line of the cache.
 struct TexelFill {
     static constexpr int kBits = 4 + 7 + 6 + 6 + 7 + 10;
@@ -194,13 +199,13 @@ struct TexelFill {
     int block_column = 0;
     int block_row = 0;
     int line = 0;
-    std::uint64_t guard = 0;  // number of samples that must be read before the line is written
+    std::uint32_t guard = 0;  // number of the last sample that must be read before the line is written
 };
 
 struct FillTarget {
     static constexpr int kBits = 7 + 10;
     int line = 0;
-    std::uint64_t guard = 0;
+    std::uint32_t guard = 0;
 };
 
 struct FillKind {
@@ -224,7 +229,7 @@ struct TexelQuad {
     SampleHead head;
     bool inside = false;
     int fx = 0, fy = 0;
-    std::array<std::uint32_t, 4> rgba{};
+    std::array<std::uint32_t, 4> rgba{};  // 0 without a weight
 };
 
 struct FilteredSample {

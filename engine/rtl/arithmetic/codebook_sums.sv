@@ -1,18 +1,21 @@
 // The codebooks of flat or of predicted records, and the sums of the entries of a look-up, in three stages: banks, pairs
-// of entries, all entries. All stages stall while `moves` is 0.
-module codebook_sums (
+// of entries, all entries. All stages stall while `moves` is 0. With ENTRY_BITS = 9 there are two sets of codebooks.
+module codebook_sums #(
+    parameter int ENTRY_BITS = 8
+) (
     input  logic clk,
     input  logic moves,
 
     /* verilator lint_off UNUSEDSIGNAL */
     input  logic [board::HOP_LOOKUP_BITS-1:0] lookup,  // hop_lookup_t
+    input  logic second_set,
     /* verilator lint_on UNUSEDSIGNAL */
     output logic [32:0] sums,  // [Y, U, V] of 11 bits signed, Y in the low bits
 
     // A word of the codebooks: of bank 0 or 1 (blocks), or of bank 2 to 5 (quarters).
     input  logic write,
     input  logic [2:0] write_bank,
-    input  logic [7:0] write_entry,
+    input  logic [ENTRY_BITS-1:0] write_entry,
     input  logic [3:0] write_part,  // word of the entry
     input  logic [63:0] write_data
 );
@@ -57,11 +60,12 @@ module codebook_sums (
       logic writes;
       assign writes = write && write_bank == 3'(stage);
       codebook_bank #(
-          .ROW_BITS(3)
+          .ROW_BITS(3),
+          .ENTRY_BITS(ENTRY_BITS)
       ) block_bank (
           .clk(clk), .write_y(writes && !write_part[3]), .write_u(writes && write_part[3:1] == 3'd4),
           .write_v(writes && write_part[3:1] == 3'd5), .write_entry(write_entry), .write_row(write_part[2:0]),
-          .write_data(write_data), .read(moves), .entry(in.block[8*stage+:8]), .row(in.y), .chroma_row(in.y[2]),
+          .write_data(write_data), .read(moves), .entry(ENTRY_BITS'({second_set, in.block[8*stage+:8]})), .row(in.y), .chroma_row(in.y[2]),
           .y(y_word), .u(u_word), .v(v_word)
       );
       assign block_samples[24*stage+:24] = blocks <= 2'(stage) ? 24'd0 :
@@ -72,11 +76,12 @@ module codebook_sums (
       logic writes;
       assign writes = write && write_bank == 3'(stage + 2);
       codebook_bank #(
-          .ROW_BITS(1)
+          .ROW_BITS(1),
+          .ENTRY_BITS(ENTRY_BITS)
       ) quarter_bank (
           .clk(clk), .write_y(writes && write_part[2:1] == 2'd0), .write_u(writes && write_part[2:1] == 2'd1),
           .write_v(writes && write_part[2:1] == 2'd2), .write_entry(write_entry), .write_row(write_part[0]),
-          .write_data(write_data), .read(moves), .entry(in.quarter[8*stage+:8]), .row(chroma_row),
+          .write_data(write_data), .read(moves), .entry(ENTRY_BITS'({second_set, in.quarter[8*stage+:8]})), .row(chroma_row),
           .chroma_row(chroma_row), .y(y_word), .u(u_word), .v(v_word)
       );
       assign quarter_samples[24*stage+:24] = quarters <= 3'(stage) ? 24'd0 :

@@ -56,18 +56,29 @@ module fill_fetch (
   logic [31:0] serial;  // of the last block
   logic [4:0] kept_requested, requested, requested_next;
   logic [6:0] kept_sent, sent, sent_next;
-  logic [26:0] kept_address, first_address, address;
+  logic [26:0] kept_address, first_address, address;  // kept: of the first word
+  // Address of a raw block, whose words are a multiple of 4: products as sums of shifted terms, so that one adder of all
+  // terms follows the image's column.
+  logic [9:0] pitch;  // of a column of blocks, in 4 words
+  logic [8:0] above;  // blocks above this one, in 4 words
   logic [12:0] column;
-  logic [19:0] block;
+  logic [24:0] first_quad;
+  assign pitch = {3'b0, object_block_rows} * 10'(board::RAW_BLOCK_WORDS / 4);
+  assign above = {3'b0, in.block_row} * 9'(board::RAW_BLOCK_WORDS / 4);
   assign column = {6'b0, in.image} * {6'b0, object_block_columns} + {7'b0, in.block_column};
-  assign block = {7'b0, column} * {13'b0, object_block_rows} + {14'b0, in.block_row};
-  assign first_address = object_raw_blocks + {7'b0, block} * 27'(board::RAW_BLOCK_WORDS);
+  always_comb begin
+    first_quad = object_raw_blocks[26:2] + {16'b0, above};
+    for (int n = 0; n < 10; n = n + 1) begin
+      first_quad = first_quad + (pitch[n] ? {12'b0, column} << n : 25'd0);
+    end
+  end
+  assign first_address = {first_quad, object_raw_blocks[1:0]};
   assign fill = active ? kept : in;
   assign is_coded = active ? kept_coded : object_coded;
   assign is_first = active ? kept_first : object_serial != serial;
   assign requested = active ? kept_requested : 5'd0;
   assign sent = active ? kept_sent : 7'd0;
-  assign address = active ? kept_address : first_address;
+  assign address = active ? kept_address + {22'b0, kept_requested} : first_address;
 
   assign asks_valid = works && is_coded && requested != 5'd8;
   assign coded_pixels_valid = works && is_coded && sent != 7'd64;
@@ -111,6 +122,6 @@ module fill_fetch (
     kept_first <= is_first && !(asks_valid && asks_ready);
     kept_requested <= requested_next;
     kept_sent <= sent_next;
-    kept_address <= address + 27'(raw_reads_ready);
+    if (!active) kept_address <= first_address;
   end
 endmodule

@@ -1,19 +1,20 @@
 // The codebook of one stage: the words with Y, U and V of an entry in one cycle. An entry has 2^ROW_BITS words of Y, and
 // two each of U and V, of eight samples.
 module codebook_bank #(
-    parameter int ROW_BITS = 3  // 3: blocks of 8x8 samples, with U and V for 2x2 of them; 1: quarters of 4x4
+    parameter int ROW_BITS = 3,  // 3: blocks of 8x8 samples, with U and V for 2x2 of them; 1: quarters of 4x4
+    parameter int ENTRY_BITS = 8
 ) (
     input  logic clk,
 
     input  logic write_y,
     input  logic write_u,
     input  logic write_v,
-    input  logic [7:0] write_entry,
+    input  logic [ENTRY_BITS-1:0] write_entry,
     input  logic [ROW_BITS-1:0] write_row,
     input  logic [63:0] write_data,
 
     input  logic read,
-    input  logic [7:0] entry,
+    input  logic [ENTRY_BITS-1:0] entry,
     input  logic [ROW_BITS-1:0] row,
     input  logic chroma_row,
     output logic [63:0] y,
@@ -22,7 +23,7 @@ module codebook_bank #(
 );
   dual_port_ram #(
       .WIDTH(64),
-      .ADDRESS_BITS(8 + ROW_BITS)
+      .ADDRESS_BITS(ENTRY_BITS + ROW_BITS)
   ) y_ram (
       .clk(clk),
       .write(write_y),
@@ -34,7 +35,7 @@ module codebook_bank #(
   );
   dual_port_ram #(
       .WIDTH(64),
-      .ADDRESS_BITS(9)
+      .ADDRESS_BITS(ENTRY_BITS + 1)
   ) u_ram (
       .clk(clk),
       .write(write_u),
@@ -46,7 +47,7 @@ module codebook_bank #(
   );
   dual_port_ram #(
       .WIDTH(64),
-      .ADDRESS_BITS(9)
+      .ADDRESS_BITS(ENTRY_BITS + 1)
   ) v_ram (
       .clk(clk),
       .write(write_v),

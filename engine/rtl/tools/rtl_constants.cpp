@@ -144,6 +144,10 @@ void add_parallel_blocks(PackageText& package) {
     package.add("ray_plane", static_cast<int>(RayKind::plane));
     package.add("ray_foot", static_cast<int>(RayKind::foot));
     package.add("ray_shape", static_cast<int>(RayKind::shape));
+    package.add("placed_samples_bits", PlacedSample::kBits);
+    package.add("sample_place_stages", SamplePlace::kStages);
+    package.add("waiting_bits", WaitingSample::kBits);
+    package.add("waiting_samples", kWaitingSamples);
 }
 
 void add_limits(PackageText& package, const BoardLimits& limits) {

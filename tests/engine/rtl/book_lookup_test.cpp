@@ -20,65 +20,18 @@ public:
             words_, RS_RTL_PORTS(module, book_words),
             [this] {
                 --requested_;
-                return model::MemoryWord{word()};
+                return model::MemoryWord{random_book_word(this->random_)};
             },
             [this] { return requested_ > 0; });
         this->output(samples_, RS_RTL_PORTS(module, samples));
     }
 
 private:
-    static model::RegisterFile random_books(Random& random) {
-        model::RegisterFile file = random_coded_registers(random);
-        std::uint32_t serial = 1;
-        for (model::ObjectRegisters& object : file.objects) {
-            object.serial = serial++;
-            object.books = static_cast<model::WordAddress>(random.in(0, (1 << 27) - 1));
-            object.book_counts.alpha = random.chance(0.5);
-            std::size_t bytes = object.book_counts.alpha ? model::BookBanks::kAlphaBytes : 0;
-            for (const std::size_t set : {0U, 1U}) {
-                int& blocks = object.book_counts.block[set];
-                int& quarters = object.book_counts.quarter[set];
-                blocks = random.chance(0.6) ? 0 : static_cast<int>(random.in(1, codec::kMaxBlockStages));
-                quarters = random.chance(0.4) ? 0 : static_cast<int>(random.in(1, codec::kMaxQuarterStages));
-                bytes += static_cast<std::size_t>(blocks) * model::BookBanks::kBlockBytes +
-                         static_cast<std::size_t>(quarters) * model::BookBanks::kQuarterBytes;
-            }
-            object.book_words = static_cast<std::uint32_t>(bytes / 8);
-        }
-        return file;
-    }
-    // Differences of all lengths, so that sums are clamped sometimes.
-    std::uint64_t word() {
-        std::uint64_t word = 0;
-        for (int n = 0; n < 8; ++n) {
-            word = word << 8U | static_cast<std::uint8_t>(this->random_.of_any_length(8));
-        }
-        return word;
-    }
     // Another object is shown rarely, as each loads its codebooks.
     model::CodedPixel pixel() {
         Random& random = this->random_;
         if (view_ < 0 || random.chance(0.0003)) view_ = random_view(registers_, random);
-        const model::BookCounts& counts = registers_.object_of(view_).book_counts;
-        model::CodedPixel pixel;
-        pixel.view = view_;
-        pixel.is_visible = random.chance(0.9);
-        if (!pixel.is_visible) return pixel;
-        const auto last = static_cast<int>(random.in(0, random.chance(0.5) ? 1 : model::kHops - 1));
-        for (int n = 0; n <= last; ++n) {
-            model::HopLookup hop = random_lookup(random);
-            hop.predicted = n < last;
-            const auto set = static_cast<std::size_t>(hop.predicted);
-            hop.block_stages = static_cast<int>(random.in(0, counts.block[set]));
-            hop.quarter_stages = static_cast<int>(random.in(0, counts.quarter[set]));
-            pixel.hop[static_cast<std::size_t>(pixel.hops++)] = hop;
-        }
-        random_colour(pixel, random);
-        if (pixel.alpha == model::CodedPixel::Alpha::book && !counts.alpha) {
-            pixel.alpha = model::CodedPixel::Alpha::full;
-        }
-        if (last > 0 && pixel.alpha == model::CodedPixel::Alpha::none) pixel.alpha = model::CodedPixel::Alpha::full;
-        return pixel;
+        return random_complete_pixel(registers_, view_, random);
     }
     model::Block& block() override { return block_; }
     void look_up() override {
@@ -92,7 +45,7 @@ private:
         this->module_.object_predicted_quarters = static_cast<CData>(object.book_counts.quarter[1]);
     }
 
-    model::RegisterFile registers_ = random_books(this->random_);
+    model::RegisterFile registers_ = random_registers_with_books(this->random_);
     int view_ = -1;
     int requested_ = 0;
     model::Fifo<model::CodedPixel> pixels_{"complete", 4, model::CodedPixel::bits(model::kHops)};

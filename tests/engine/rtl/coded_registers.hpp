@@ -1,6 +1,7 @@
 #pragma once
 // Random registers and requests of boards with compressed images.
 
+#include "engine/model/blocks/decompression/book_lookup.hpp"
 #include "engine/model/signals/coded_messages.hpp"
 #include "tests/engine/rtl/random_registers.hpp"
 
@@ -78,6 +79,59 @@ inline void random_colour(model::CodedPixel& pixel, Random& random) {
     for (std::uint8_t& sample : pixel.flat) sample = static_cast<std::uint8_t>(random.word());
     pixel.alpha = static_cast<model::CodedPixel::Alpha>(random.in(0, 2));
     pixel.alpha_entry = static_cast<std::uint8_t>(random.word());
+}
+
+/// random_coded_registers() whose objects have codebooks, by preference few.
+inline model::RegisterFile random_registers_with_books(Random& random) {
+    model::RegisterFile file = random_coded_registers(random);
+    std::uint32_t serial = 1;
+    for (model::ObjectRegisters& object : file.objects) {
+        object.serial = serial++;
+        object.books = static_cast<model::WordAddress>(random.in(0, (1 << 27) - 1));
+        object.book_counts.alpha = random.chance(0.5);
+        std::size_t bytes = object.book_counts.alpha ? model::BookBanks::kAlphaBytes : 0;
+        for (const std::size_t set : {0U, 1U}) {
+            int& blocks = object.book_counts.block[set];
+            int& quarters = object.book_counts.quarter[set];
+            blocks = random.chance(0.6) ? 0 : static_cast<int>(random.in(1, codec::kMaxBlockStages));
+            quarters = random.chance(0.4) ? 0 : static_cast<int>(random.in(1, codec::kMaxQuarterStages));
+            bytes += static_cast<std::size_t>(blocks) * model::BookBanks::kBlockBytes +
+                     static_cast<std::size_t>(quarters) * model::BookBanks::kQuarterBytes;
+        }
+        object.book_words = static_cast<std::uint32_t>(bytes / 8);
+    }
+    return file;
+}
+
+/// A word of codebooks: differences of all lengths, so that sums are clamped sometimes.
+inline std::uint64_t random_book_word(Random& random) {
+    std::uint64_t word = 0;
+    for (int n = 0; n < 8; ++n) word = word << 8U | static_cast<std::uint8_t>(random.of_any_length(8));
+    return word;
+}
+
+/// A pixel of a view behind its last hop.
+inline model::CodedPixel random_complete_pixel(const model::RegisterFile& file, int view, Random& random) {
+    const model::BookCounts& counts = file.object_of(view).book_counts;
+    model::CodedPixel pixel;
+    pixel.view = view;
+    pixel.is_visible = random.chance(0.9);
+    if (!pixel.is_visible) return pixel;
+    const auto last = static_cast<int>(random.in(0, random.chance(0.5) ? 1 : model::kHops - 1));
+    for (int n = 0; n <= last; ++n) {
+        model::HopLookup hop = random_lookup(random);
+        hop.predicted = n < last;
+        const auto set = static_cast<std::size_t>(hop.predicted);
+        hop.block_stages = static_cast<int>(random.in(0, counts.block[set]));
+        hop.quarter_stages = static_cast<int>(random.in(0, counts.quarter[set]));
+        pixel.hop[static_cast<std::size_t>(pixel.hops++)] = hop;
+    }
+    random_colour(pixel, random);
+    if (pixel.alpha == model::CodedPixel::Alpha::book && !counts.alpha) {
+        pixel.alpha = model::CodedPixel::Alpha::full;
+    }
+    if (last > 0 && pixel.alpha == model::CodedPixel::Alpha::none) pixel.alpha = model::CodedPixel::Alpha::full;
+    return pixel;
 }
 
 }  // namespace rs::engine::rtl

@@ -43,7 +43,7 @@ private:
                 number(object.block_columns - 1),
                 number(object.block_rows - 1),
                 number(127),
-                static_cast<std::uint64_t>(number(1023))};
+                static_cast<std::uint32_t>(number(1023))};
     }
     model::Block& block() override { return block_; }
     void look_up() override {

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""mutate.py MODULE.sv MODULE.mutants OUTPUT.sv: one module with all its mutants.
+"""mutate.py MODULE.sv MODULE.mutants OUTPUT.sv [PART.sv...]: one module with all its mutants.
 
 Each line of the list is an expression that occurs once in the module, " --> ", and its replacement; lines that begin
-with # are comments. The output has two more ports: `mutant` selects a mutant (0: none), `mutants` is their number.
+with # are comments. An expression that the module lacks is looked for in the parts, modules that it may instantiate;
+the output has those that are mutated, too. It has two more ports: `mutant` selects a mutant (0: none), `mutants` is
+their number.
 """
 
 import pathlib
@@ -24,12 +26,14 @@ def read_mutants(path):
     return by_original, number
 
 
-def mutated(text, by_original, count, where):
+def replaced(text, by_original, selector):
     for original, mutants in by_original.items():
-        if text.count(original) != 1:
-            sys.exit(f"{where}: {original!r} occurs {text.count(original)} times in the module; it must occur once")
-        choices = "".join(f"mutant == 8'd{n} ? ({replacement}) : " for n, replacement in mutants)
+        choices = "".join(f"{selector} == 8'd{n} ? ({replacement}) : " for n, replacement in mutants)
         text = text.replace(original, f"({choices}({original}))")
+    return text
+
+
+def with_ports(text, count, where):
     ports = re.search(r"^(module \w+|\)) \(\n", text, re.MULTILINE)
     if not ports:
         sys.exit(f"{where}: the module's ports do not begin behind a line that ends with ' ('")
@@ -44,9 +48,21 @@ def mutated(text, by_original, count, where):
 
 
 def main():
-    module, mutants, output = map(pathlib.Path, sys.argv[1:])
+    module, mutants, output, *parts = map(pathlib.Path, sys.argv[1:])
     by_original, count = read_mutants(mutants)
-    output.write_text(mutated(module.read_text(), by_original, count, mutants))
+    texts = [path.read_text() for path in [module, *parts]]
+    in_text = [{} for _ in texts]
+    for original, choices in by_original.items():
+        occurrences = [text.count(original) for text in texts]
+        found = 0 if occurrences[0] else next((n for n, times in enumerate(occurrences) if times), 0)
+        if occurrences[found] != 1:
+            sys.exit(f"{mutants}: {original!r} occurs {occurrences[found]} times in the module; it must occur once")
+        in_text[found][original] = choices
+    text = with_ports(replaced(texts[0], in_text[0], "mutant"), count, mutants)
+    for part, of_part in zip(texts[1:], in_text[1:]):
+        if of_part:
+            text += replaced(part, of_part, f"{module.stem}.mutant")
+    output.write_text(text)
 
 
 main()

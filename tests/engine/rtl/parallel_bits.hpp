@@ -68,11 +68,11 @@ inline Bits pack(const model::TexelFill& m) {
         .put(m.block_column, 6)
         .put(m.block_row, 6)
         .put(m.line, 7)
-        .put(static_cast<std::int64_t>(m.guard), 10)
+        .put(m.guard, 10)
         .bits();
 }
 inline Bits pack(const model::FillTarget& m) {
-    return BitsWriter(m.kBits).put(m.line, 7).put(static_cast<std::int64_t>(m.guard), 10).bits();
+    return BitsWriter(m.kBits).put(m.line, 7).put(m.guard, 10).bits();
 }
 inline Bits pack(const model::FillKind& m) {
     return BitsWriter(m.kBits).put(m.coded, 1).bits();
@@ -157,6 +157,27 @@ inline Bits pack(const model::ColumnSetup& m, int width_bits) {
     writer.put(m.inverse_r_q20, 25).put(m.inverse_rho_q20, 22);
     writer.put(m.map_line[1], 27).put(m.map_line[0], 27).put(m.map_place[1], 13).put(m.map_place[0], 13);
     return writer.put(m.line_part, 3).put(m.p_part, 3).bits();
+}
+inline Bits pack(const model::PlacedSample& m) {
+    BitsWriter writer(m.kBits);
+    return put(writer, m.head)
+        .put(m.view, 4)
+        .put(m.inside, 1)
+        .put(m.image, 7)
+        .put(m.left, 9)
+        .put(m.top, 9)
+        .put(m.fx, 3)
+        .put(m.fy, 3)
+        .put(m.right_is_left, 1)
+        .put(m.bottom_is_top, 1)
+        .bits();
+}
+inline Bits pack(const model::WaitingSample& m) {
+    BitsWriter writer(m.kBits);
+    put(writer, m.head).put(m.inside, 1).put(m.fx, 3).put(m.fy, 3);
+    for (std::size_t n = m.line.size(); n-- > 0;) writer.put(m.line[n], 7);
+    for (std::size_t n = m.texel.size(); n-- > 0;) writer.put(m.texel[n], 6);
+    return writer.put(m.fills, 3).bits();
 }
 
 }  // namespace rs::engine::rtl

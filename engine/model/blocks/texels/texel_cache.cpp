@@ -15,6 +15,7 @@ bool TexelCache::read() {
     fills_ -= sample.fills;
     TexelQuad quad{sample.head, sample.inside, sample.fx, sample.fy, {}};
     for (std::size_t n = 0; n < 4; ++n) {
+        if (!sample.inside || (n >= 2 && sample.fx == 0) || (n % 2 == 1 && sample.fy == 0)) continue;
         quad.rgba[n] = lines_[static_cast<std::size_t>(sample.line[n])][static_cast<std::size_t>(sample.texel[n])];
     }
     out_.push(quad);
@@ -23,7 +24,9 @@ bool TexelCache::read() {
 }
 
 bool TexelCache::write(std::uint64_t samples_read) {
-    if (!texels_.can_pop() || !targets_.can_pop() || samples_read < targets_.front().guard) return false;
+    if (!texels_.can_pop() || !targets_.can_pop()) return false;
+    // The guard is within 512 samples before and 511 behind those read (texel_tags.hpp).
+    if ((samples_read - targets_.front().guard) % kSampleNumbers > kWaitingSamples) return false;
     lines_[static_cast<std::size_t>(targets_.front().line)][static_cast<std::size_t>(written_)] = texels_.pop().rgba;
     if (++written_ < kLineTexels) return true;
     targets_.pop();

@@ -1,7 +1,7 @@
 #pragma once
 // Texel cache: 128 lines of 8x8 texels, R, G, B and alpha, in four banks by the lowest bits of column and row, so that
-// the four texels of any sample are read in one cycle; one texel is written in the same cycle. A sample waits until the
-// blocks that were requested for it have been written.
+// the four texels of any sample are read in one cycle, that in which it passes; one texel is written in the same cycle.
+// A sample waits until the blocks that were requested for it have been written. Texels without a weight are 0.
 
 #include "engine/model/blocks/shared/stages.hpp"
 #include "engine/model/blocks/texels/texel_tags.hpp"

@@ -1,5 +1,7 @@
 #include "engine/model/blocks/texels/texel_tags.hpp"
 
+#include <algorithm>
+
 namespace rs::engine::model {
 
 TexelTags::TexelTags(const RegisterFile& registers, const Ports& ports)
@@ -7,7 +9,9 @@ TexelTags::TexelTags(const RegisterFile& registers, const Ports& ports)
       registers_(registers),
       in_(reads(ports.in)),
       fills_(writes(ports.fills)),
-      out_(writes(ports.out)) {}
+      out_(writes(ports.out)) {
+    RS_CHECK(ports.out.depth() <= kWaitingSamples);
+}
 
 int TexelTags::find(int image, int block_column, int block_row) const {
     const int set = set_of(image, block_column, block_row);
@@ -54,6 +58,11 @@ int TexelTags::replace(const TexelFill& fill) {
     return line;
 }
 
+std::uint32_t TexelTags::guard_of(const Line& line) const {
+    RS_CHECK(line.last_use < std::max<std::int64_t>(samples_, 1));
+    return static_cast<std::uint32_t>(std::max(line.last_use, samples_ - kWaitingSamples)) % kSampleNumbers;
+}
+
 Activity TexelTags::tick(std::uint64_t) {
     if (!in_.can_pop()) return Activity::idle;
     const PlacedSample& sample = in_.front();
@@ -72,7 +81,7 @@ Activity TexelTags::tick(std::uint64_t) {
         if (needs_fill(sample, waiting, fill)) {
             if (!fills_.can_push()) return Activity::output_full;
             fill.line = replace(fill);
-            fill.guard = lines_[static_cast<std::size_t>(fill.line)].last_use;
+            fill.guard = guard_of(lines_[static_cast<std::size_t>(fill.line)]);
             fills_.push(fill);
             ++new_fills_;
             ++fills_requested_;

@@ -76,6 +76,30 @@ TEST(ParallelTexelTiming, TexelTagsReplaceTheOlderLineAfterItsLastReader) {
     EXPECT_EQ(t.bench.cycles_until(t.block, t.out), 1);  // still in the cache
 }
 
+// The guard has 10 bits: a line that was last read more than 512 samples ago is as one read 512 samples ago.
+TEST(ParallelTexelTiming, TexelTagsSendAGuardOfTheLast512Samples) {
+    for (const std::uint32_t between : {0U, 510U, 511U, 512U, 1021U, 1022U, 1023U, 1535U, 5000U}) {
+        TagsBench t;
+        const auto pass = [&](const PlacedSample& sample) {
+            t.push(sample);
+            ASSERT_NE(t.bench.cycles_until(t.block, t.out), -1);
+            t.out.pop();
+            t.out.commit();
+        };
+        pass(sample_at(2, 0, 0, 0, 0));
+        pass(sample_at(2, 8 * 4, 0, 0, 0));
+        for (std::uint32_t n = 0; n < between; ++n) pass({});
+        pass(sample_at(2, 8 * 8, 0, 0, 0));
+        const std::uint32_t samples = 2 + between;
+        ASSERT_EQ(t.fills.count(), 3);
+        t.fills.pop();
+        t.fills.commit();
+        t.fills.pop();
+        t.fills.commit();
+        EXPECT_EQ(t.fills.front().guard, samples > 513 ? (samples - 512) % 1024 : 1U) << between;
+    }
+}
+
 TEST(ParallelTexelTiming, FillFetchTakes64CyclesForACodedBlockAndAWordPerCycleForARawOne) {
     ViewsOfThreeObjects r;
     Fifo<TexelFill> in("in", 4, 1);
@@ -142,6 +166,7 @@ struct CacheBench {
     void wait_for(int line, int fills) {
         WaitingSample sample;
         sample.inside = true;
+        sample.fx = sample.fy = 4;
         sample.line = {line, line, line, line};
         sample.fills = fills;
         put(in, sample);
@@ -185,6 +210,49 @@ TEST(ParallelTexelTiming, TexelCacheWritesNoLineBeforeItsLastReaderHasRead) {
     c.out.pop();
     c.out.commit();
     EXPECT_EQ(c.out.front().rgba[0], 8U);
+}
+
+TEST(ParallelTexelTiming, TexelCacheGivesNoTexelsWithoutWeight) {
+    CacheBench c;
+    put(c.targets, {0, 0});
+    c.texels_of_a_block(64, 7);
+    for (int n = 0; n < 64; ++n) c.bench.step(c.block);
+    for (const bool inside : {false, true}) {
+        for (const int fx : {0, 1}) {
+            for (const int fy : {0, 1}) {
+                WaitingSample sample;
+                sample.inside = inside;
+                sample.fx = fx;
+                sample.fy = fy;
+                put(c.in, sample);
+                EXPECT_EQ(c.bench.cycles_until(c.block, c.out), 1);
+                const auto texel = [&](bool has_weight) { return inside && has_weight ? 7U : 0U; };
+                const std::array<std::uint32_t, 4> expected = {texel(true), texel(fy > 0), texel(fx > 0),
+                                                               texel(fx > 0 && fy > 0)};
+                EXPECT_EQ(c.out.front().rgba, expected);
+                c.out.pop();
+                c.out.commit();
+            }
+        }
+    }
+}
+
+TEST(ParallelTexelTiming, TexelCacheComparesGuardsModulo1024) {
+    for (const int samples_read : {0, 1, 511, 512, 513, 1023, 1024, 3000}) {
+        for (const int ahead : {-512, -511, -1, 0, 1, 2, 510, 511}) {
+            CacheBench c;
+            for (int n = 0; n < samples_read; ++n) {
+                put(c.in, {});
+                ASSERT_EQ(c.bench.cycles_until(c.block, c.out), 1);
+                c.out.pop();
+                c.out.commit();
+            }
+            c.texels_of_a_block(64, 8);
+            put(c.targets, {5, static_cast<std::uint32_t>(samples_read + ahead) % kSampleNumbers});
+            c.wait_for(5, 1);
+            EXPECT_EQ(c.bench.cycles_until(c.block, c.out, 100), ahead <= 0 ? 65 : -1) << samples_read << ' ' << ahead;
+        }
+    }
 }
 
 }  // namespace
