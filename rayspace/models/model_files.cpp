@@ -5,6 +5,7 @@
 #include "rayspace/file/file_reference.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/models/gltf_extensions.hpp"
+#include "rayspace/models/model_material.hpp"
 #include "rayspace/models/obj_text.hpp"
 
 #include <assimp/BaseImporter.h>
@@ -20,6 +21,7 @@
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -74,16 +76,47 @@ void set_primitive_types(const aiScene& model) {
     }
 }
 
-// Sets the transforms of colour textures for Assimp's TransformUVCoords.
+// Affine map of texture coordinates (u to the right, v upwards), for (u, v, 1).
+using UvMap = glm::mat3x2;
+
+UvMap map_of(const TexturePlacement& placement) {
+    return {placement.scale.x, 0, 0, placement.scale.y, placement.offset.x, placement.offset.y};
+}
+
+// KHR_texture_transform, which has v downwards and turns about the origin. Assimp's translation is for turns about the
+// centre of the image (glTF2Importer.cpp); the file's offset is restored from it. Assimp's step TransformUVCoords is
+// not used: it scales about the centre, too, which that translation does not allow for.
+UvMap map_of(const aiUVTransform& t) {
+    const float c = std::cos(t.mRotation), s = -std::sin(t.mRotation);
+    const glm::vec2 scale(t.mScaling.x, t.mScaling.y);
+    const glm::vec2 offset(t.mTranslation.x - scale.x * (1 - c + s) / 2,
+                           scale.y * (s + c - 1) / 2 + 1 - scale.y - t.mTranslation.y);
+    return {c * scale.x, s * scale.x, -s * scale.y, c * scale.y, s * scale.y + offset.x, 1 - c * scale.y - offset.y};
+}
+
+// Moves the coordinates of each mesh's colour texture to its first set, as the material places that texture.
 void place_textures(const aiScene& model, const std::map<std::string, TexturePlacement>& placements) {
-    for (unsigned m = 0; m < model.mNumMaterials; ++m) {
-        aiMaterial& material = *model.mMaterials[m];
-        const auto found = placements.find(material.GetName().C_Str());
-        if (found == placements.end()) continue;
-        aiUVTransform transform;
-        transform.mScaling = {found->second.scale.x, found->second.scale.y};
-        transform.mTranslation = {found->second.offset.x, found->second.offset.y};
-        material.AddProperty(&transform, 1, AI_MATKEY_UVTRANSFORM(aiTextureType_DIFFUSE, 0));
+    for (unsigned m = 0; m < model.mNumMeshes; ++m) {
+        aiMesh& mesh = *model.mMeshes[m];
+        if (mesh.mMaterialIndex >= model.mNumMaterials) continue;
+        aiMaterial& material = *model.mMaterials[mesh.mMaterialIndex];
+        const auto set = material_property<int>(material, AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0)).value_or(0);
+        if (set > 0 && set < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh.HasTextureCoords(static_cast<unsigned>(set))) {
+            std::swap(mesh.mTextureCoords[0], mesh.mTextureCoords[set]);
+            std::swap(mesh.mNumUVComponents[0], mesh.mNumUVComponents[set]);
+        }
+        std::optional<UvMap> map;
+        if (const auto found = placements.find(material.GetName().C_Str()); found != placements.end()) {
+            map = map_of(found->second);
+        } else if (const auto transform =
+                       material_property<aiUVTransform>(material, AI_MATKEY_UVTRANSFORM(aiTextureType_DIFFUSE, 0))) {
+            map = map_of(*transform);
+        }
+        for (unsigned i = 0; map && mesh.HasTextureCoords(0) && i < mesh.mNumVertices; ++i) {
+            aiVector3D& at = mesh.mTextureCoords[0][i];
+            const glm::vec2 placed = *map * glm::vec3(at.x, at.y, 1);
+            at = {placed.x, placed.y, 0};
+        }
     }
 }
 
@@ -190,7 +223,7 @@ Result<const aiScene*> post_process(Assimp::Importer& importer, unsigned steps, 
     if (const auto* const files = dynamic_cast<const ModelFiles*>(importer.GetIOHandler())) {
         place_textures(*model, files->placements());
     }
-    return importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | aiProcess_TransformUVCoords | steps);
+    return importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | steps);
 }
 
 }  // namespace rs

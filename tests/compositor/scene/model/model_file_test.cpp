@@ -288,6 +288,55 @@ TEST_F(ModelFile, TextureTransformsMoveTextureCoordinates) {
     EXPECT_FLOAT_EQ(width(*of_obj), 4);
 }
 
+// Coordinates of the colour texture by KHR_texture_transform (offset + rotation * scale * uv, v downwards), and by
+// MTL's -s and -o (scale * uv + offset).
+TEST_F(ModelFile, TextureTransformsAreExact) {
+    ASSERT_TRUE(write_png(folder_ / "a.png", Image<Rgba8>(2, 2, Rgba8{255, 0, 0, 255}).view()).ok());
+    const auto with = [&](const std::string& transform) {
+        return read(gltf(R"({"mesh": 0})", R"(, "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0,
+        "extensions": {"KHR_texture_transform": {)" +
+                                               transform + R"(}}}}}], "textures": [{"source": 0}],
+        "images": [{"uri": "a.png"}], "extensionsUsed": ["KHR_texture_transform"])"));
+    };
+    for (const double angle : {0.0, 0.5, -2.0}) {
+        const auto scene = with(R"("scale": [2, 3], "offset": [1.25, -0.1], "rotation": )" + std::to_string(angle));
+        ASSERT_TRUE(scene) << scene.error().message;
+        const std::vector<MeshVertex>& vertices = scene->geometry.at(0).mesh->vertices;
+        ASSERT_EQ(vertices.size(), 3U);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double u = 2 * static_cast<double>(kData[9 + 2 * i]), v = 3 * static_cast<double>(kData[10 + 2 * i]);
+            EXPECT_NEAR(vertices[i].texture.x, std::cos(angle) * u + std::sin(angle) * v + 1.25, 1e-5);
+            EXPECT_NEAR(1 - vertices[i].texture.y, -std::sin(angle) * u + std::cos(angle) * v - 0.1, 1e-5);
+        }
+    }
+    std::ofstream(folder_ / "m.mtl") << "newmtl m\nmap_Kd -s 4 2 1 -o 0.5 0.25 0 a.png\n";
+    const auto of_obj =
+        read("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n", "m.obj");
+    ASSERT_TRUE(of_obj) << of_obj.error().message;
+    const std::vector<MeshVertex>& vertices = of_obj->geometry.at(0).mesh->vertices;
+    EXPECT_EQ(vertices.at(0).texture, glm::vec2(0.5F, 0.25F));
+    EXPECT_EQ(vertices.at(1).texture, glm::vec2(4.5F, 0.25F));
+    EXPECT_EQ(vertices.at(2).texture, glm::vec2(0.5F, 2.25F));
+}
+
+TEST_F(ModelFile, TheColourTextureMayUseTheSecondSetOfCoordinates) {
+    ASSERT_TRUE(write_png(folder_ / "a.png", Image<Rgba8>(2, 2, Rgba8{255, 0, 0, 255}).view()).ok());
+    std::string text = gltf(R"({"mesh": 0})", R"(, "materials": [{"pbrMetallicRoughness": {"baseColorTexture":
+        {"index": 0, "texCoord": 1}}}], "textures": [{"source": 0}], "images": [{"uri": "a.png"}])");
+    const std::string first = R"("TEXCOORD_0": 1)";
+    // The first set has the positions' x and y.
+    text.replace(text.find(first), first.size(), R"("TEXCOORD_0": 2, "TEXCOORD_1": 1)");
+    text.insert(text.find(R"("type": "VEC2"})") + 15,
+                R"(, {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC2"})");
+    text.insert(text.find(R"("byteLength": 24})") + 17, R"(, {"buffer": 0, "byteOffset": 0, "byteLength": 24})");
+    const auto scene = read(text);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const std::vector<MeshVertex>& vertices = scene->geometry.at(0).mesh->vertices;
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(vertices.at(i).texture, glm::vec2(kData[9 + 2 * i], 1 - kData[10 + 2 * i]));
+    }
+}
+
 TEST_F(ModelFile, ObjectsAloneMakeAScene) {
     const auto scene = read(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
         "nodes": [{"extras": {"RaySpace": {"url": "a.rso"}}}]})");
