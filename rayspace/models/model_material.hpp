@@ -1,8 +1,8 @@
 #pragma once
 // Converts materials of glTF and MTL, as Assimp reads them, to surfaces for ray tracing. Thread-safe.
 
-#include "rayspace/api/types/image.hpp"
 #include "rayspace/base/result.hpp"
+#include "rayspace/light/metallic_roughness.hpp"
 #include "rayspace/light/surface_properties.hpp"
 
 #include <assimp/material.h>
@@ -12,7 +12,6 @@
 #include <functional>
 #include <initializer_list>
 #include <optional>
-#include <span>
 #include <string>
 
 namespace rs {
@@ -58,8 +57,5 @@ Result<ModelMaterial> read_model_material(const aiMaterial& source, bool gltf, c
 
 /// True for names of glTF and GLB files.
 bool is_gltf(const std::filesystem::path& file);
-
-/// Mean red, green and blue of an image of linear codes, 0..1.
-glm::vec3 mean_of_codes(std::span<const Rgba8> pixels);
 
 }  // namespace rs

@@ -1,6 +1,7 @@
 #include "compositor/scene/model/model_materials.hpp"
 
 #include "rayspace/base/printable.hpp"
+#include "rayspace/light/metallic_roughness.hpp"
 #include "rayspace/models/model_image.hpp"
 #include "rayspace/models/model_material.hpp"
 
@@ -20,12 +21,6 @@ constexpr float kMaxBumpScale = 1000;
 
 glm::vec3 vec(const aiColor3D& c) {
     return glm::clamp(glm::vec3(c.r, c.g, c.b), glm::vec3(0), glm::vec3(1));
-}
-
-// Rough surfaces have wide highlights: the width of a Phong lobe of exponent n is about roughness^4 = 2 / (n + 2).
-float shininess_of(float roughness) {
-    const float r = std::clamp(roughness, 0.2F, 1.0F);
-    return std::clamp((2 / (r * r * r * r) - 2) / 128, 0.0F, 1.0F);
 }
 
 }  // namespace
@@ -59,14 +54,13 @@ MaterialWithSides ModelMaterials::convert(const aiMaterial& source) {
     result.two_sided = material_property<int>(source, AI_MATKEY_TWOSIDED).value_or(1) != 0;
     bool blends = true;
     if (const auto base = material_property<aiColor4D>(source, AI_MATKEY_BASE_COLOR)) {
-        const float metallic =
-            std::clamp(material_property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1), 0.0F, 1.0F);
-        const glm::vec3 colour = vec({base->r, base->g, base->b});
-        // For Phong's formula: metals without reflections would be black except for highlights, so half of the colour
-        // stays diffuse.
-        material.diffuse = colour * (1 - 0.5F * metallic);
-        material.specular = glm::mix(glm::vec3(0.04F), colour, metallic);
-        material.shininess = shininess_of(material_property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1));
+        const PhongColours phong =
+            phong_colours_of({{base->r, base->g, base->b},
+                              material_property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1),
+                              material_property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1)});
+        material.diffuse = phong.diffuse;
+        material.specular = phong.specular;
+        material.shininess = phong.exponent / 128;
         const std::string mode =
             material_property<aiString>(source, AI_MATKEY_GLTF_ALPHAMODE).value_or(aiString("OPAQUE")).C_Str();
         blends = mode != "OPAQUE";
