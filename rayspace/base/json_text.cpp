@@ -2,6 +2,7 @@
 
 #include "rayspace/base/nearest_name.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/base/utf8.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -77,7 +78,7 @@ std::string syntax_fault(std::string_view read) {
 Error syntax_error(std::string_view text, std::size_t end, const std::string& where) {
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
         return Error{where + ": is not valid JSON but empty; write it again"};
-    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+    if (is_utf16(text)) {
         return Error{where + ": is not valid JSON but UTF-16 text; save it as UTF-8"};
     }
     const std::string_view read = text.substr(0, end);

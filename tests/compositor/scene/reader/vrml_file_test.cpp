@@ -309,6 +309,7 @@ TEST(VrmlFile, OtherFormatsOfWorldsAreRefusedByName) {
     for (const auto& [text, message] :
          {std::pair("#Inventor V2.1 ascii\nSeparator { Cube { } }", "is '#Inventor V2.1 ascii', not VRML97"),
           std::pair("#Inventor V2.1 binary\n", "convert it to VRML97"),
+          std::pair("\xff\xfe#", "is UTF-16 text; save it as UTF-8"),
           std::pair("<html><body><X3D/></body></html>", "its root is 'html', not X3D; save the X3D element")}) {
         const Result<Scene> scene = scene_from_vrml(text, "hall.iv");
         ASSERT_FALSE(scene);
