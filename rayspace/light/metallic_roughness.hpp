@@ -27,10 +27,15 @@ struct PhongColours {
     float exponent = 0.0F;  // of the highlight, 0..128
 };
 /// Half of a metal's colour stays diffuse: without reflections it would be black except for highlights.
-PhongColours phong_colours_of(const MetallicRoughness& material);
+/// \param mean_texture mean colour, as linear light, of the texture or vertex colours that multiply `base`; it colours
+/// the highlights of metals
+PhongColours phong_colours_of(const MetallicRoughness& material, const glm::vec3& mean_texture = glm::vec3(1));
 
 /// Mean red, green and blue of an image of linear codes, 0..1. Of metallic-roughness textures only the mean counts:
 /// green is a factor of the roughness, blue of the metallic.
 glm::vec3 mean_of_codes(std::span<const Rgba8> pixels);
+
+/// Mean of an image in sRGB, as linear light.
+glm::vec3 mean_linear_colour(std::span<const Rgba8> pixels);
 
 }  // namespace rs

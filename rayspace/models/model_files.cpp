@@ -1,12 +1,12 @@
 #include "rayspace/models/model_files.hpp"
 
 #include "rayspace/base/printable.hpp"
+#include "rayspace/base/utf8.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/file_reference.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/models/gltf_extensions.hpp"
 #include "rayspace/models/model_material.hpp"
-#include "rayspace/models/obj_text.hpp"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/config.h>
@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -94,13 +95,14 @@ UvMap map_of(const aiUVTransform& t) {
     return {c * scale.x, s * scale.x, -s * scale.y, c * scale.y, s * scale.y + offset.x, 1 - c * scale.y - offset.y};
 }
 
-// Moves the coordinates of each mesh's colour texture to its first set, as the material places that texture.
+// Moves the coordinates of each mesh's leading texture to its first set, as the material places that texture.
 void place_textures(const aiScene& model, const std::map<std::string, TexturePlacement>& placements) {
     for (unsigned m = 0; m < model.mNumMeshes; ++m) {
         aiMesh& mesh = *model.mMeshes[m];
         if (mesh.mMaterialIndex >= model.mNumMaterials) continue;
         aiMaterial& material = *model.mMaterials[mesh.mMaterialIndex];
-        const auto set = material_property<int>(material, AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0)).value_or(0);
+        const aiTextureType leading = leading_texture(material);
+        const auto set = material_property<int>(material, AI_MATKEY_UVWSRC(leading, 0)).value_or(0);
         if (set > 0 && set < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh.HasTextureCoords(static_cast<unsigned>(set))) {
             std::swap(mesh.mTextureCoords[0], mesh.mTextureCoords[set]);
             std::swap(mesh.mNumUVComponents[0], mesh.mNumUVComponents[set]);
@@ -109,7 +111,7 @@ void place_textures(const aiScene& model, const std::map<std::string, TexturePla
         if (const auto found = placements.find(material.GetName().C_Str()); found != placements.end()) {
             map = map_of(found->second);
         } else if (const auto transform =
-                       material_property<aiUVTransform>(material, AI_MATKEY_UVTRANSFORM(aiTextureType_DIFFUSE, 0))) {
+                       material_property<aiUVTransform>(material, AI_MATKEY_UVTRANSFORM(leading, 0))) {
             map = map_of(*transform);
         }
         for (unsigned i = 0; map && mesh.HasTextureCoords(0) && i < mesh.mNumVertices; ++i) {
@@ -156,10 +158,16 @@ Assimp::IOStream* ModelFiles::Open(const char* path, const char* mode) {
 Result<std::vector<std::byte>> ModelFiles::read(const std::filesystem::path& path) {
     RS_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, read_file(path, cap_bytes_));
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (is_utf16(text)) return Error{path.string() + ": is UTF-16 text; save it as UTF-8"};
     const std::string extension = lower_case_extension(path);
+    if (extension == ".obj") {
+        obj_ = path;
+        obj_names_ = names_in_obj(text);
+    }
     if (extension == ".mtl") {
         MtlText rewritten = rewrite_mtl(text);
         placements_.merge(rewritten.placements);
+        materials_.merge(rewritten.materials);
         // Assimp rejects files of fewer than 8 bytes.
         if (rewritten.text.size() < 8) rewritten.text = "# empty\n";
         const auto rewritten_bytes = std::as_bytes(std::span(rewritten.text));
@@ -167,14 +175,34 @@ Result<std::vector<std::byte>> ModelFiles::read(const std::filesystem::path& pat
     }
     if (extension == ".gltf" || text.starts_with("glTF")) {
         RS_ASSIGN_OR_RETURN(GltfFile file, prepare_gltf(std::move(bytes), path.string()));
-        for (std::string& warning : file.warnings) {
-            if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.push_back(std::move(warning));
-        }
+        for (std::string& warning : file.warnings) warn(std::move(warning));
         return std::move(file.bytes);
     }
     const std::size_t mark = text.size() - without_byte_order_mark(text).size();
     bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(mark));
     return bytes;
+}
+
+void ModelFiles::warn(std::string warning) {
+    if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.push_back(std::move(warning));
+}
+
+void ModelFiles::report_skipped_names() {
+    const std::string file = obj_.string() + ": ";
+    if (obj_names_.has_free_forms) warn(file + "free-form curves and surfaces are ignored; export them as faces");
+    const auto missing = std::ranges::find_if(obj_names_.libraries, [&](const std::string& library) {
+        const auto path = resolve_reference(library, obj_.parent_path());
+        return !path || !Exists(path->string().c_str());
+    });
+    if (missing != obj_names_.libraries.end()) {
+        warn(printable(file + "the material library " + *missing + " does not exist; drawn without its materials"));
+    }
+    if (materials_.empty()) return;
+    std::vector<std::string> undefined;
+    std::ranges::set_difference(obj_names_.materials, materials_, std::back_inserter(undefined));
+    if (undefined.empty()) return;
+    const std::string more = undefined.size() > 1 ? " and " + std::to_string(undefined.size() - 1) + " more" : "";
+    warn(printable(file + "no material library defines " + undefined.front() + more + "; drawn grey"));
 }
 
 void ModelFiles::Close(Assimp::IOStream* stream) {
@@ -220,7 +248,8 @@ Result<const aiScene*> post_process(Assimp::Importer& importer, unsigned steps, 
     if (model == nullptr) return model;
     RS_TRY(check_finite(*model, file));
     set_primitive_types(*model);
-    if (const auto* const files = dynamic_cast<const ModelFiles*>(importer.GetIOHandler())) {
+    if (auto* const files = dynamic_cast<ModelFiles*>(importer.GetIOHandler())) {
+        files->report_skipped_names();
         place_textures(*model, files->placements());
     }
     return importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | steps);

@@ -47,6 +47,7 @@ Status read_gltf(const aiMaterial& source, const TextureMean& mean_of, ModelMate
         factors.metallic *= mean.b;
     }
     SurfaceProperties& surface = material.surface = surface_of(factors);
+    material.metallic_roughness = factors;
     const float transmission = material_property<float>(source, AI_MATKEY_TRANSMISSION_FACTOR).value_or(0.0F);
     surface.ior = std::clamp(material_property<float>(source, AI_MATKEY_REFRACTI).value_or(1.5F), 1.0F, 10.0F);
     if (transmission >= 0.5F) surface.kind = SurfaceKind::glass;
@@ -125,6 +126,26 @@ Result<ModelMaterial> read_model_material(const aiMaterial& source, bool gltf, c
         read_mtl(source, material);
     }
     return material;
+}
+
+aiTextureType leading_texture(const aiMaterial& material) {
+    for (const aiTextureType type : {aiTextureType_DIFFUSE, aiTextureType_NORMALS, aiTextureType_EMISSIVE}) {
+        if (material.GetTextureCount(type) > 0) return type;
+    }
+    return aiTextureType_DIFFUSE;
+}
+
+bool has_other_coordinates(const aiMaterial& material, aiTextureType type) {
+    const aiTextureType leading = leading_texture(material);
+    const auto set_of = [&](aiTextureType t) {
+        return material_property<int>(material, AI_MATKEY_UVWSRC(t, 0)).value_or(0);
+    };
+    const auto transform_of = [&](aiTextureType t) {
+        return material_property<aiUVTransform>(material, AI_MATKEY_UVTRANSFORM(t, 0)).value_or(aiUVTransform());
+    };
+    const aiUVTransform a = transform_of(type), b = transform_of(leading);
+    return set_of(type) != set_of(leading) || a.mScaling != b.mScaling || a.mTranslation != b.mTranslation ||
+           a.mRotation != b.mRotation;
 }
 
 bool is_gltf(const std::filesystem::path& file) {

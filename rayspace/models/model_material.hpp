@@ -30,6 +30,7 @@ struct ModelTexture {
 struct ModelMaterial {
     std::string name;
     SurfaceProperties surface;
+    std::optional<MetallicRoughness> metallic_roughness;  // of glTF, with the mean of its texture
     bool two_sided = true;  // false only for emissive surfaces of MTL: lamps that shine to one side
     std::optional<ModelTexture> colours;
     std::optional<ModelTexture> emission;
@@ -54,6 +55,12 @@ using TextureMean = std::function<Result<glm::vec3>(const std::string& name)>;
 /// \param mean_of used for metallic-roughness textures, of which only the mean counts
 /// \return errors of `mean_of` only
 Result<ModelMaterial> read_model_material(const aiMaterial& source, bool gltf, const TextureMean& mean_of);
+
+/// Texture by which the coordinates of a material's meshes are placed (post_process of model_files.hpp): the first one
+/// of colour, normals and emission.
+aiTextureType leading_texture(const aiMaterial& material);
+/// True if the texture of this type has another set of coordinates or another transform than leading_texture().
+bool has_other_coordinates(const aiMaterial& material, aiTextureType type);
 
 /// True for names of glTF and GLB files.
 bool is_gltf(const std::filesystem::path& file);

@@ -54,13 +54,6 @@ MaterialWithSides ModelMaterials::convert(const aiMaterial& source) {
     result.two_sided = material_property<int>(source, AI_MATKEY_TWOSIDED).value_or(1) != 0;
     bool blends = true;
     if (const auto base = material_property<aiColor4D>(source, AI_MATKEY_BASE_COLOR)) {
-        const PhongColours phong =
-            phong_colours_of({{base->r, base->g, base->b},
-                              material_property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1),
-                              material_property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1)});
-        material.diffuse = phong.diffuse;
-        material.specular = phong.specular;
-        material.shininess = phong.exponent / 128;
         const std::string mode =
             material_property<aiString>(source, AI_MATKEY_GLTF_ALPHAMODE).value_or(aiString("OPAQUE")).C_Str();
         blends = mode != "OPAQUE";
@@ -94,9 +87,18 @@ void ModelMaterials::add_surface(const aiMaterial& source, bool blends, Material
     if (read->colours) {
         material.texture = colour_texture(*read->colours, blends);
     }
+    if (read->metallic_roughness) {
+        const bool has_texture = material.texture != nullptr;
+        const PhongColours phong =
+            phong_colours_of(*read->metallic_roughness,
+                             has_texture ? mean_linear_colour(material.texture->image.pixels()) : glm::vec3(1));
+        material.diffuse = material.lit ? phong.diffuse : read->surface.colour;
+        material.specular = phong.specular;
+        material.shininess = phong.exponent / 128;
+    }
     if (!material.lit) return;
     material.surface = read->surface;
-    if (read->emission && read->surface.emission != glm::vec3(0)) {
+    if (read->emission && read->surface.emission != glm::vec3(0) && can_place(source, aiTextureType_EMISSIVE)) {
         material.emission_texture = image(read->emission->name, read->emission->repeat_u, read->emission->repeat_v);
     }
     // Glass is blended by raster renderers.
@@ -117,11 +119,20 @@ std::shared_ptr<const SceneTexture> ModelMaterials::colour_texture(const ModelTe
     return texture;
 }
 
+// Meshes have one set of coordinates (leading_texture). OBJ files have only one.
+bool ModelMaterials::can_place(const aiMaterial& source, aiTextureType type) {
+    if (!is_gltf(file_) || !has_other_coordinates(source, type)) return true;
+    warnings.push_back(printable(file_.string() + ": material \"" + source.GetName().C_Str() + "\": the " +
+                                 (type == aiTextureType_NORMALS ? "normal" : "emission") +
+                                 " texture has other coordinates than the color texture; drawn without"));
+    return false;
+}
+
 // glTF's normal texture, MTL's norm, or MTL's bump map. Normals take precedence over heights.
 std::shared_ptr<const NormalMap> ModelMaterials::relief(const aiMaterial& source) {
     for (const aiTextureType type : {aiTextureType_NORMALS, aiTextureType_HEIGHT}) {
         const auto texture = texture_of(source, {type});
-        if (!texture) continue;
+        if (!texture || !can_place(source, type)) continue;
         const auto read = image(texture->name, texture->repeat_u, texture->repeat_v);
         if (!read) continue;
         float strength = material_property<float>(source, AI_MATKEY_GLTF_TEXTURE_SCALE(type, 0)).value_or(1);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace rs::compositor::vrml {
 namespace {
@@ -118,6 +119,7 @@ public:
             copy->modulates = true;
             material_.texture = std::move(copy);
         }
+        if (material_.texture && physical_) set_phong_colours(mean_linear_colour(material_.texture->image.pixels()));
         apply_alpha_mode();
         if (const NodePointer transform = appearance_.node("textureTransform")) {
             material_.texture_transform = texture_matrix(*transform);
@@ -133,12 +135,9 @@ public:
 
 private:
     void read_physical(const Node& given) {
-        MetallicRoughness factors{factor(given.triple("baseColor")), fraction(given.number("metallic")),
-                                  fraction(given.number("roughness"))};
-        const PhongColours phong = phong_colours_of(factors);
-        material_.diffuse = phong.diffuse;
-        material_.specular = phong.specular;
-        material_.shininess = phong.exponent / 128;
+        MetallicRoughness& factors =
+            physical_.emplace(MetallicRoughness{factor(given.triple("baseColor")), fraction(given.number("metallic")),
+                                                fraction(given.number("roughness"))});
         material_.ambient = 1;
         material_.emissive = factor(given.triple("emissiveColor"));
         if (const NodePointer texture = given.node("metallicRoughnessTexture")) {
@@ -148,8 +147,16 @@ private:
                 factors.metallic *= mean.b;
             }
         }
+        set_phong_colours(glm::vec3(1));
         material_.surface = surface_of(factors);
         material_.surface->emission = material_.emissive;
+    }
+
+    void set_phong_colours(const glm::vec3& mean_texture) {
+        const PhongColours phong = phong_colours_of(*physical_, mean_texture);
+        material_.diffuse = phong.diffuse;
+        material_.specular = phong.specular;
+        material_.shininess = phong.exponent / 128;
     }
 
     void read_relief(const Node& given) {
@@ -195,6 +202,7 @@ private:
     SceneImages& images_;
     const NodeWarning& warn_;
     Material material_;
+    std::optional<MetallicRoughness> physical_;  // with the mean of its texture
 };
 
 }  // namespace
