@@ -63,7 +63,7 @@ void round_fractions(nlohmann::ordered_json& json) {
     }
 }
 
-// What is wrong at the last character that the parser has read, and its remedy.
+// Fault at the last character that the parser has read, with its remedy.
 std::string syntax_fault(std::string_view read) {
     const char last = read.empty() ? '\0' : read.back();
     if (!read.empty()) read.remove_suffix(1);
