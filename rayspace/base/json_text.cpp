@@ -2,6 +2,7 @@
 
 #include "rayspace/base/nearest_name.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/base/utf8.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -62,6 +63,32 @@ void round_fractions(nlohmann::ordered_json& json) {
     }
 }
 
+// Fault at the last character that the parser has read, with its remedy.
+std::string syntax_fault(std::string_view read) {
+    const char last = read.empty() ? '\0' : read.back();
+    if (!read.empty()) read.remove_suffix(1);
+    const std::size_t before = read.find_last_not_of(" \t\r\n");
+    const bool follows_comma = before != std::string_view::npos && read[before] == ',';
+    if (follows_comma && (last == ']' || last == '}')) return "a comma precedes a closing bracket; remove it";
+    if (last == '/' || last == '#') return "JSON has no comments; remove it";
+    return "correct it there (NaN and Infinity are not JSON)";
+}
+
+// Error for a text that is not JSON; `end` is the number of characters that the parser has read.
+Error syntax_error(std::string_view text, std::size_t end, const std::string& where) {
+    if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
+        return Error{where + ": is not valid JSON but empty; write it again"};
+    if (is_utf16(text)) {
+        return Error{where + ": is not valid JSON but UTF-16 text; save it as UTF-8"};
+    }
+    const std::string_view read = text.substr(0, end);
+    const auto line = 1 + std::count(read.begin(), read.end(), '\n');
+    const std::size_t column = read.size() - (read.rfind('\n') + 1);  // npos + 1 is 0
+    const std::string fault = syntax_fault(read);
+    return Error{where + ": is not valid JSON at line " + std::to_string(line) + ", column " + std::to_string(column) +
+                 (fault.starts_with("correct") ? "; " : ": ") + fault};
+}
+
 }  // namespace
 
 Result<nlohmann::json> parse_json(std::string_view text, const std::string& where) {
@@ -75,9 +102,7 @@ Result<nlohmann::json> parse_json(std::string_view text, const std::string& wher
     } catch (const SyntaxError& refused) {
         return Error{where + ": " + refused.why};
     } catch (const nlohmann::json::parse_error& error) {
-        const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-        return Error{where + ": is not valid JSON at line " + std::to_string(1 + std::count(text.begin(), end, '\n')) +
-                     "; correct it there (NaN and Infinity are not JSON)"};
+        return syntax_error(text, error.byte, where);
     } catch (const nlohmann::json::exception&) {
         return Error{where + ": holds a number that is out of range; correct it"};
     }

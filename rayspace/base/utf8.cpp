@@ -29,4 +29,8 @@ bool is_utf8(std::string_view text) {
     return true;
 }
 
+bool is_utf16(std::string_view text) {
+    return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+}
+
 }  // namespace rs

@@ -17,4 +17,7 @@ Utf8Character first_utf8_character(std::string_view text);
 /// True if all of the text is valid. An empty text is.
 bool is_utf8(std::string_view text);
 
+/// True if the text begins with a byte order mark of UTF-16.
+bool is_utf16(std::string_view text);
+
 }  // namespace rs

@@ -72,8 +72,11 @@ std::optional<fs::path> resolve_reference(std::string_view reference, const fs::
         if (auto match = match_any_case((folder / spelling).lexically_normal())) return match;
     }
     for (const std::string& spelling : {with_slashes(written), with_slashes(decoded)}) {
-        const fs::path beside = folder / fs::path(spelling).filename();
-        if (is_file(beside)) return beside.lexically_normal();
+        for (std::size_t slash = spelling.find('/'); slash != std::string::npos;
+             slash = spelling.find('/', slash + 1)) {
+            const fs::path end = folder / spelling.substr(slash + 1);
+            if (is_file(end)) return end.lexically_normal();
+        }
     }
     return (folder / decoded).lexically_normal();
 }

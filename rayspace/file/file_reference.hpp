@@ -10,8 +10,9 @@
 namespace rs {
 
 /// First existing file of: the reference as written; with "%20" decoded; with "\" as separator; with both; each of
-/// these in any letter case; a file of that name beside the referring file (absolute paths of another machine). If none
-/// exists, the decoded path, for error messages. A leading "file:" is removed. Thread-safe.
+/// these in any letter case; the longest end of it that exists in the folder ("images/1.png" or "1.png" for an absolute
+/// path "C:\a\images\1.png" of another machine). If none exists, the decoded path, for error messages. A leading
+/// "file:" is removed. Thread-safe.
 /// \param folder folder of the referring file
 /// \return nullopt if the reference is empty or to another host ("http:", "urn:", "data:")
 std::optional<std::filesystem::path> resolve_reference(std::string_view reference, const std::filesystem::path& folder);

@@ -1,6 +1,7 @@
 // IES LM-63 reader: labels, TILT=, then numbers with arbitrary line breaks. Sources: ANSI/IESNA LM-63-2002; I. Ashdown,
 // "Parsing the IESNA LM-63 photometric data file", 1998, for the older editions.
 
+#include "rayspace/base/utf8.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/light/luminaire.hpp"
@@ -236,6 +237,7 @@ Result<Luminaire> read_luminaire(const std::filesystem::path& path) {
         return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     };
     RS_ASSIGN_OR_RETURN(std::string text, read_text(path));
+    if (is_utf16(text)) return Error{path.string() + ": is UTF-16 text; save it as UTF-8"};
     if (lower_case_extension(path) == ".ldt") return parse_eulumdat(text, path.string());
     const std::vector<std::string_view> lines = split_lines(text);
     if (const auto at = tilt_line(lines)) {

@@ -152,6 +152,13 @@ Result<GltfFile> prepare_gltf(std::vector<std::byte> bytes, const std::string& f
     GltfFile result;
     const bool glb = is_glb(view);
     if (glb && !is_whole_glb(bytes)) return Error{file + ": is a damaged .glb file; export it again"};
+    if (mentions(text, "1.0") || mentions(text, "1.1")) {
+        RS_ASSIGN_OR_RETURN(const json top, parse_json(text, file));
+        const json::json_pointer place("/asset/version");
+        if (top.contains(place) && (top[place] == "1.0" || top[place] == "1.1")) {
+            return Error{file + ": is of glTF 1; convert it to glTF 2.0"};
+        }
+    }
     const bool has_ignored = std::ranges::any_of(
         kIgnoredContents, [&](const IgnoredContent& content) { return mentions(text, content.key); });
     if (has_ignored || mentions(text, "extensionsUsed") || mentions(text, "extensionsRequired")) {

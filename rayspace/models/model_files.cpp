@@ -1,11 +1,12 @@
 #include "rayspace/models/model_files.hpp"
 
 #include "rayspace/base/printable.hpp"
+#include "rayspace/base/utf8.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/file_reference.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/models/gltf_extensions.hpp"
-#include "rayspace/models/obj_text.hpp"
+#include "rayspace/models/model_material.hpp"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/config.h>
@@ -20,6 +21,8 @@
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -74,16 +77,48 @@ void set_primitive_types(const aiScene& model) {
     }
 }
 
-// Sets the transforms of colour textures for Assimp's TransformUVCoords.
+// Affine map of texture coordinates (u to the right, v upwards), for (u, v, 1).
+using UvMap = glm::mat3x2;
+
+UvMap map_of(const TexturePlacement& placement) {
+    return {placement.scale.x, 0, 0, placement.scale.y, placement.offset.x, placement.offset.y};
+}
+
+// KHR_texture_transform, which has v downwards and turns about the origin. Assimp's translation is for turns about the
+// centre of the image (glTF2Importer.cpp); the file's offset is restored from it. Assimp's step TransformUVCoords is
+// not used: it scales about the centre, too, which that translation does not allow for.
+UvMap map_of(const aiUVTransform& t) {
+    const float c = std::cos(t.mRotation), s = -std::sin(t.mRotation);
+    const glm::vec2 scale(t.mScaling.x, t.mScaling.y);
+    const glm::vec2 offset(t.mTranslation.x - scale.x * (1 - c + s) / 2,
+                           scale.y * (s + c - 1) / 2 + 1 - scale.y - t.mTranslation.y);
+    return {c * scale.x, s * scale.x, -s * scale.y, c * scale.y, s * scale.y + offset.x, 1 - c * scale.y - offset.y};
+}
+
+// Moves the coordinates of each mesh's leading texture to its first set, as the material places that texture.
 void place_textures(const aiScene& model, const std::map<std::string, TexturePlacement>& placements) {
-    for (unsigned m = 0; m < model.mNumMaterials; ++m) {
-        aiMaterial& material = *model.mMaterials[m];
-        const auto found = placements.find(material.GetName().C_Str());
-        if (found == placements.end()) continue;
-        aiUVTransform transform;
-        transform.mScaling = {found->second.scale.x, found->second.scale.y};
-        transform.mTranslation = {found->second.offset.x, found->second.offset.y};
-        material.AddProperty(&transform, 1, AI_MATKEY_UVTRANSFORM(aiTextureType_DIFFUSE, 0));
+    for (unsigned m = 0; m < model.mNumMeshes; ++m) {
+        aiMesh& mesh = *model.mMeshes[m];
+        if (mesh.mMaterialIndex >= model.mNumMaterials) continue;
+        aiMaterial& material = *model.mMaterials[mesh.mMaterialIndex];
+        const aiTextureType leading = leading_texture(material);
+        const auto set = material_property<int>(material, AI_MATKEY_UVWSRC(leading, 0)).value_or(0);
+        if (set > 0 && set < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh.HasTextureCoords(static_cast<unsigned>(set))) {
+            std::swap(mesh.mTextureCoords[0], mesh.mTextureCoords[set]);
+            std::swap(mesh.mNumUVComponents[0], mesh.mNumUVComponents[set]);
+        }
+        std::optional<UvMap> map;
+        if (const auto found = placements.find(material.GetName().C_Str()); found != placements.end()) {
+            map = map_of(found->second);
+        } else if (const auto transform =
+                       material_property<aiUVTransform>(material, AI_MATKEY_UVTRANSFORM(leading, 0))) {
+            map = map_of(*transform);
+        }
+        for (unsigned i = 0; map && mesh.HasTextureCoords(0) && i < mesh.mNumVertices; ++i) {
+            aiVector3D& at = mesh.mTextureCoords[0][i];
+            const glm::vec2 placed = *map * glm::vec3(at.x, at.y, 1);
+            at = {placed.x, placed.y, 0};
+        }
     }
 }
 
@@ -123,10 +158,16 @@ Assimp::IOStream* ModelFiles::Open(const char* path, const char* mode) {
 Result<std::vector<std::byte>> ModelFiles::read(const std::filesystem::path& path) {
     RS_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, read_file(path, cap_bytes_));
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (is_utf16(text)) return Error{path.string() + ": is UTF-16 text; save it as UTF-8"};
     const std::string extension = lower_case_extension(path);
+    if (extension == ".obj") {
+        obj_ = path;
+        obj_names_ = names_in_obj(text);
+    }
     if (extension == ".mtl") {
         MtlText rewritten = rewrite_mtl(text);
         placements_.merge(rewritten.placements);
+        materials_.merge(rewritten.materials);
         // Assimp rejects files of fewer than 8 bytes.
         if (rewritten.text.size() < 8) rewritten.text = "# empty\n";
         const auto rewritten_bytes = std::as_bytes(std::span(rewritten.text));
@@ -134,14 +175,34 @@ Result<std::vector<std::byte>> ModelFiles::read(const std::filesystem::path& pat
     }
     if (extension == ".gltf" || text.starts_with("glTF")) {
         RS_ASSIGN_OR_RETURN(GltfFile file, prepare_gltf(std::move(bytes), path.string()));
-        for (std::string& warning : file.warnings) {
-            if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.push_back(std::move(warning));
-        }
+        for (std::string& warning : file.warnings) warn(std::move(warning));
         return std::move(file.bytes);
     }
     const std::size_t mark = text.size() - without_byte_order_mark(text).size();
     bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(mark));
     return bytes;
+}
+
+void ModelFiles::warn(std::string warning) {
+    if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.push_back(std::move(warning));
+}
+
+void ModelFiles::report_skipped_names() {
+    const std::string file = obj_.string() + ": ";
+    if (obj_names_.has_free_forms) warn(file + "free-form curves and surfaces are ignored; export them as faces");
+    const auto missing = std::ranges::find_if(obj_names_.libraries, [&](const std::string& library) {
+        const auto path = resolve_reference(library, obj_.parent_path());
+        return !path || !Exists(path->string().c_str());
+    });
+    if (missing != obj_names_.libraries.end()) {
+        warn(printable(file + "the material library " + *missing + " does not exist; drawn without its materials"));
+    }
+    if (materials_.empty()) return;
+    std::vector<std::string> undefined;
+    std::ranges::set_difference(obj_names_.materials, materials_, std::back_inserter(undefined));
+    if (undefined.empty()) return;
+    const std::string more = undefined.size() > 1 ? " and " + std::to_string(undefined.size() - 1) + " more" : "";
+    warn(printable(file + "no material library defines " + undefined.front() + more + "; drawn grey"));
 }
 
 void ModelFiles::Close(Assimp::IOStream* stream) {
@@ -187,10 +248,11 @@ Result<const aiScene*> post_process(Assimp::Importer& importer, unsigned steps, 
     if (model == nullptr) return model;
     RS_TRY(check_finite(*model, file));
     set_primitive_types(*model);
-    if (const auto* const files = dynamic_cast<const ModelFiles*>(importer.GetIOHandler())) {
+    if (auto* const files = dynamic_cast<ModelFiles*>(importer.GetIOHandler())) {
+        files->report_skipped_names();
         place_textures(*model, files->placements());
     }
-    return importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | aiProcess_TransformUVCoords | steps);
+    return importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | steps);
 }
 
 }  // namespace rs

@@ -4,6 +4,7 @@
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/models/mtl_text.hpp"
+#include "rayspace/models/obj_text.hpp"
 
 #include <assimp/scene.h>
 #include <assimp/IOSystem.hpp>
@@ -13,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,13 +37,21 @@ public:
     [[nodiscard]] const std::string& refusal() const { return refusal_; }
     /// Ignored contents of the files read.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+    /// Adds a warning for what the OBJ named and Assimp skipped: libraries that do not exist, materials that none
+    /// defines, free-form curves and surfaces. To be called when all files are read.
+    void report_skipped_names();
     /// Placements in the material libraries read, by material.
     [[nodiscard]] const std::map<std::string, TexturePlacement>& placements() const { return placements_; }
 
 private:
     Result<std::vector<std::byte>> read(const std::filesystem::path& path);
 
+    void warn(std::string warning);
+
     std::uint64_t cap_bytes_;
+    std::filesystem::path obj_;
+    ObjNames obj_names_;
+    std::set<std::string> materials_;  // of all libraries
     std::string refusal_;
     std::vector<std::string> warnings_;
     std::map<std::string, TexturePlacement> placements_;

@@ -34,24 +34,23 @@ float hole_alpha_of(const aiMaterial& source) {
 }
 
 Status read_gltf(const aiMaterial& source, const TextureMean& mean_of, ModelMaterial& material) {
-    SurfaceProperties& surface = material.surface;
+    MetallicRoughness factors{SurfaceProperties{}.colour};
     if (const auto base = material_property<aiColor4D>(source, AI_MATKEY_BASE_COLOR)) {
-        surface.colour = as_reflectance({base->r, base->g, base->b});
+        factors.base = {base->r, base->g, base->b};
     }
-    float metallic = material_property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1.0F);
-    float roughness = material_property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1.0F);
+    factors.metallic = material_property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1.0F);
+    factors.roughness = material_property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1.0F);
     // Assimp's slot for the combined metallic-roughness texture.
     if (const auto texture = texture_of(source, {aiTextureType_UNKNOWN})) {
         RS_ASSIGN_OR_RETURN(const glm::vec3 mean, mean_of(texture->name));
-        roughness *= mean.g;
-        metallic *= mean.b;
+        factors.roughness *= mean.g;
+        factors.metallic *= mean.b;
     }
-    surface.roughness = std::clamp(roughness, 0.0F, 1.0F);
+    SurfaceProperties& surface = material.surface = surface_of(factors);
+    material.metallic_roughness = factors;
     const float transmission = material_property<float>(source, AI_MATKEY_TRANSMISSION_FACTOR).value_or(0.0F);
     surface.ior = std::clamp(material_property<float>(source, AI_MATKEY_REFRACTI).value_or(1.5F), 1.0F, 10.0F);
-    surface.kind = transmission >= 0.5F ? SurfaceKind::glass
-                   : metallic >= 0.5F   ? SurfaceKind::metal
-                                        : SurfaceKind::glossy;
+    if (transmission >= 0.5F) surface.kind = SurfaceKind::glass;
     surface.emission = glm::max(colour_property(source, AI_MATKEY_COLOR_EMISSIVE), glm::vec3(0.0F));
     material.emission = texture_of(source, {aiTextureType_EMISSIVE});
     material.colours = texture_of(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}, hole_alpha_of(source));
@@ -129,15 +128,29 @@ Result<ModelMaterial> read_model_material(const aiMaterial& source, bool gltf, c
     return material;
 }
 
+aiTextureType leading_texture(const aiMaterial& material) {
+    for (const aiTextureType type : {aiTextureType_DIFFUSE, aiTextureType_NORMALS, aiTextureType_EMISSIVE}) {
+        if (material.GetTextureCount(type) > 0) return type;
+    }
+    return aiTextureType_DIFFUSE;
+}
+
+bool has_other_coordinates(const aiMaterial& material, aiTextureType type) {
+    const aiTextureType leading = leading_texture(material);
+    const auto set_of = [&](aiTextureType t) {
+        return material_property<int>(material, AI_MATKEY_UVWSRC(t, 0)).value_or(0);
+    };
+    const auto transform_of = [&](aiTextureType t) {
+        return material_property<aiUVTransform>(material, AI_MATKEY_UVTRANSFORM(t, 0)).value_or(aiUVTransform());
+    };
+    const aiUVTransform a = transform_of(type), b = transform_of(leading);
+    return set_of(type) != set_of(leading) || a.mScaling != b.mScaling || a.mTranslation != b.mTranslation ||
+           a.mRotation != b.mRotation;
+}
+
 bool is_gltf(const std::filesystem::path& file) {
     const std::string extension = file.extension().string();
     return extension.size() > 1 && (extension[1] == 'g' || extension[1] == 'G');
-}
-
-glm::vec3 mean_of_codes(std::span<const Rgba8> pixels) {
-    glm::dvec3 sum(0.0);
-    for (const Rgba8& p : pixels) sum += glm::dvec3(p.r, p.g, p.b);
-    return glm::vec3(sum / (255.0 * static_cast<double>(pixels.size())));
 }
 
 }  // namespace rs

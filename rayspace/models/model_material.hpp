@@ -1,8 +1,8 @@
 #pragma once
 // Converts materials of glTF and MTL, as Assimp reads them, to surfaces for ray tracing. Thread-safe.
 
-#include "rayspace/api/types/image.hpp"
 #include "rayspace/base/result.hpp"
+#include "rayspace/light/metallic_roughness.hpp"
 #include "rayspace/light/surface_properties.hpp"
 
 #include <assimp/material.h>
@@ -12,7 +12,6 @@
 #include <functional>
 #include <initializer_list>
 #include <optional>
-#include <span>
 #include <string>
 
 namespace rs {
@@ -31,6 +30,7 @@ struct ModelTexture {
 struct ModelMaterial {
     std::string name;
     SurfaceProperties surface;
+    std::optional<MetallicRoughness> metallic_roughness;  // of glTF, with the mean of its texture
     bool two_sided = true;  // false only for emissive surfaces of MTL: lamps that shine to one side
     std::optional<ModelTexture> colours;
     std::optional<ModelTexture> emission;
@@ -56,10 +56,13 @@ using TextureMean = std::function<Result<glm::vec3>(const std::string& name)>;
 /// \return errors of `mean_of` only
 Result<ModelMaterial> read_model_material(const aiMaterial& source, bool gltf, const TextureMean& mean_of);
 
+/// Texture by which the coordinates of a material's meshes are placed (post_process of model_files.hpp): the first one
+/// of colour, normals and emission.
+aiTextureType leading_texture(const aiMaterial& material);
+/// True if the texture of this type has another set of coordinates or another transform than leading_texture().
+bool has_other_coordinates(const aiMaterial& material, aiTextureType type);
+
 /// True for names of glTF and GLB files.
 bool is_gltf(const std::filesystem::path& file);
-
-/// Mean red, green and blue of an image of linear codes, 0..1.
-glm::vec3 mean_of_codes(std::span<const Rgba8> pixels);
 
 }  // namespace rs

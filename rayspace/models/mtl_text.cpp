@@ -188,6 +188,7 @@ MtlText rewrite_mtl(std::string_view text) {
         if (keyword == "newmtl") {
             block.finish(result);
             block.begin(arguments);
+            result.materials.emplace(arguments);
             in_material = true;
         }
         if (in_material) block.add(keyword, arguments, result);

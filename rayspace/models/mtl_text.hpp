@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,7 @@ struct TexturePlacement {
 struct MtlText {
     std::string text;
     std::map<std::string, TexturePlacement> placements;  // by material, where not the identity
+    std::set<std::string> materials;                     // names
 };
 
 /// Keywords of MTL that are read.

@@ -79,4 +79,19 @@ std::string find_bad_obj_index(std::string_view text) {
     return found;
 }
 
+ObjNames names_in_obj(std::string_view text) {
+    ObjNames names;
+    for_each_line(text, [&](std::string_view line, std::size_t) {
+        const std::string_view keyword = take_word(line);
+        names.has_free_forms |= keyword == "curv" || keyword == "curv2" || keyword == "surf";
+        if (keyword != "mtllib" && keyword != "usemtl") return true;
+        line.remove_prefix(std::min(line.find_first_not_of(kObjBlanks), line.size()));
+        std::string name(line.substr(0, line.find_last_not_of(kObjBlanks) + 1));
+        const bool is_none = name.empty() || name == "None" || name == "(null)";
+        if (!is_none) (keyword == "mtllib" ? names.libraries : names.materials).insert(std::move(name));
+        return true;
+    });
+    return names;
+}
+
 }  // namespace rs

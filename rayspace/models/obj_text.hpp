@@ -1,6 +1,7 @@
 #pragma once
-// Diagnosis of OBJ files that Assimp rejects: its errors name no line.
+// Diagnosis of OBJ files: Assimp's errors name no line, and it skips materials and statements without a word.
 
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -10,5 +11,13 @@ namespace rs {
 /// Positive indices count from 1 over the whole file, negative ones back from the statement. Pure; thread-safe.
 /// \return empty if all indices exist
 std::string find_bad_obj_index(std::string_view text);
+
+struct ObjNames {
+    std::set<std::string> libraries;  // mtllib
+    std::set<std::string> materials;  // usemtl, without "None" and "(null)", which exporters write for none
+    bool has_free_forms = false;      // curv, curv2, surf
+};
+/// Pure; thread-safe.
+ObjNames names_in_obj(std::string_view text);
 
 }  // namespace rs

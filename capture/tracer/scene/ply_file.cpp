@@ -134,7 +134,11 @@ constexpr PlyColumn kVertexColumns[] = {{"x", 0},
                                         {"blue", kColourAt + 2},
                                         {"diffuse_red", kColourAt},
                                         {"diffuse_green", kColourAt + 1},
-                                        {"diffuse_blue", kColourAt + 2}};
+                                        {"diffuse_blue", kColourAt + 2},
+                                        {"f_dc_0", kColourAt},
+                                        {"f_dc_1", kColourAt + 1},
+                                        {"f_dc_2", kColourAt + 2}};
+constexpr float kHarmonicOfDegree0 = 0.28209479F;  // 3D Gaussian splats: sRGB = 0.5 + this * f_dc
 constexpr PlyColumn kMaterialColumns[] = {{"diffuse_red", 0},           {"diffuse_green", 1},   {"diffuse_blue", 2},
                                           {"specular_red", 3},          {"specular_green", 4},  {"specular_blue", 5},
                                           {"specular_power", kPowerAt}, {"opacity", kOpacityAt}};
@@ -249,6 +253,7 @@ private:
     struct Target {
         std::size_t at = kRestAt;
         float one = 1;  // integer colours are divided by their type's maximum
+        float zero = 0;
     };
 
     [[nodiscard]] PlyRow default_material() const {
@@ -275,6 +280,10 @@ private:
             has_uvs_ = has_uvs_ || (vertices && target.at >= kTextureAt && target.at < kColourAt);
             const bool is_vertex_colour = vertices && target.at >= kColourAt;
             has_colours_ = has_colours_ || is_vertex_colour;
+            if (property.name.starts_with("f_dc_")) {
+                target.zero = 0.5F;
+                target.one = 1 / kHarmonicOfDegree0;
+            }
             const bool is_colour = is_vertex_colour || (materials && target.at < kPowerAt);
             if (!is_colour || !is_integer(property.type)) continue;
             target.one = with_type(property.type, [](auto zero) {
@@ -309,7 +318,7 @@ private:
             }
             const auto value = body_.next(property.type);
             if (!value) return property.name + " is missing or not a number of its type; the file may be truncated";
-            row_[targets_[i].at] = static_cast<float>(*value) / targets_[i].one;
+            row_[targets_[i].at] = static_cast<float>(*value) / targets_[i].one + targets_[i].zero;
         }
         return std::nullopt;
     }

@@ -113,6 +113,11 @@ private:
         if (!mesh) mesh = convert(source, look.two_sided);
         if (mesh->indices.empty()) return;
         GeometryNode node{mesh, look.material, world_from_node, {}};
+        // The highlights of metals have their colour.
+        const auto& surface = node.material.surface;
+        if (mesh->has_colours && surface && surface->kind == rs::SurfaceKind::metal) {
+            node.material.specular *= mean_colour(index, *mesh);
+        }
         if (mesh->topology != Topology::kTriangles) {
             node.material.lit = false;
             node.material.texture = nullptr;
@@ -122,11 +127,20 @@ private:
         names_.emplace_back(name);
     }
 
+    glm::vec3 mean_colour(unsigned index, const Mesh& mesh) {
+        const auto [mean, is_new] = mean_colours_.emplace(index, glm::vec3(0));
+        for (std::size_t i = 0; is_new && i < mesh.vertices.size(); ++i) {
+            mean->second += glm::vec3(mesh.vertices[i].colour) / static_cast<float>(mesh.vertices.size());
+        }
+        return mean->second;
+    }
+
     const aiScene& model_;
     model::ModelMaterials& materials_;
     Scene& scene_;
     std::vector<std::string>& names_;
     std::map<unsigned, std::shared_ptr<const Mesh>> meshes_;
+    std::map<unsigned, glm::vec3> mean_colours_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "compositor/scene/model/model_materials.hpp"
 
 #include "rayspace/base/printable.hpp"
+#include "rayspace/light/metallic_roughness.hpp"
 #include "rayspace/models/model_image.hpp"
 #include "rayspace/models/model_material.hpp"
 
@@ -20,12 +21,6 @@ constexpr float kMaxBumpScale = 1000;
 
 glm::vec3 vec(const aiColor3D& c) {
     return glm::clamp(glm::vec3(c.r, c.g, c.b), glm::vec3(0), glm::vec3(1));
-}
-
-// Rough surfaces have wide highlights: the width of a Phong lobe of exponent n is about roughness^4 = 2 / (n + 2).
-float shininess_of(float roughness) {
-    const float r = std::clamp(roughness, 0.2F, 1.0F);
-    return std::clamp((2 / (r * r * r * r) - 2) / 128, 0.0F, 1.0F);
 }
 
 }  // namespace
@@ -59,14 +54,6 @@ MaterialWithSides ModelMaterials::convert(const aiMaterial& source) {
     result.two_sided = material_property<int>(source, AI_MATKEY_TWOSIDED).value_or(1) != 0;
     bool blends = true;
     if (const auto base = material_property<aiColor4D>(source, AI_MATKEY_BASE_COLOR)) {
-        const float metallic =
-            std::clamp(material_property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1), 0.0F, 1.0F);
-        const glm::vec3 colour = vec({base->r, base->g, base->b});
-        // For Phong's formula: metals without reflections would be black except for highlights, so half of the colour
-        // stays diffuse.
-        material.diffuse = colour * (1 - 0.5F * metallic);
-        material.specular = glm::mix(glm::vec3(0.04F), colour, metallic);
-        material.shininess = shininess_of(material_property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1));
         const std::string mode =
             material_property<aiString>(source, AI_MATKEY_GLTF_ALPHAMODE).value_or(aiString("OPAQUE")).C_Str();
         blends = mode != "OPAQUE";
@@ -100,9 +87,18 @@ void ModelMaterials::add_surface(const aiMaterial& source, bool blends, Material
     if (read->colours) {
         material.texture = colour_texture(*read->colours, blends);
     }
+    if (read->metallic_roughness) {
+        const bool has_texture = material.texture != nullptr;
+        const PhongColours phong =
+            phong_colours_of(*read->metallic_roughness,
+                             has_texture ? mean_linear_colour(material.texture->image.pixels()) : glm::vec3(1));
+        material.diffuse = material.lit ? phong.diffuse : read->surface.colour;
+        material.specular = phong.specular;
+        material.shininess = phong.exponent / 128;
+    }
     if (!material.lit) return;
     material.surface = read->surface;
-    if (read->emission && read->surface.emission != glm::vec3(0)) {
+    if (read->emission && read->surface.emission != glm::vec3(0) && can_place(source, aiTextureType_EMISSIVE)) {
         material.emission_texture = image(read->emission->name, read->emission->repeat_u, read->emission->repeat_v);
     }
     // Glass is blended by raster renderers.
@@ -123,11 +119,20 @@ std::shared_ptr<const SceneTexture> ModelMaterials::colour_texture(const ModelTe
     return texture;
 }
 
+// Meshes have one set of coordinates (leading_texture). OBJ files have only one.
+bool ModelMaterials::can_place(const aiMaterial& source, aiTextureType type) {
+    if (!is_gltf(file_) || !has_other_coordinates(source, type)) return true;
+    warnings.push_back(printable(file_.string() + ": material \"" + source.GetName().C_Str() + "\": the " +
+                                 (type == aiTextureType_NORMALS ? "normal" : "emission") +
+                                 " texture has other coordinates than the color texture; drawn without"));
+    return false;
+}
+
 // glTF's normal texture, MTL's norm, or MTL's bump map. Normals take precedence over heights.
 std::shared_ptr<const NormalMap> ModelMaterials::relief(const aiMaterial& source) {
     for (const aiTextureType type : {aiTextureType_NORMALS, aiTextureType_HEIGHT}) {
         const auto texture = texture_of(source, {type});
-        if (!texture) continue;
+        if (!texture || !can_place(source, type)) continue;
         const auto read = image(texture->name, texture->repeat_u, texture->repeat_v);
         if (!read) continue;
         float strength = material_property<float>(source, AI_MATKEY_GLTF_TEXTURE_SCALE(type, 0)).value_or(1);

@@ -34,6 +34,7 @@ private:
     /// \param blends false if the alpha of textures is ignored
     void add_surface(const aiMaterial& source, bool blends, Material& material);
     std::shared_ptr<const SceneTexture> colour_texture(const ModelTexture& source, bool blends);
+    bool can_place(const aiMaterial& source, aiTextureType type);
     std::shared_ptr<const NormalMap> relief(const aiMaterial& source);
     std::shared_ptr<const SceneTexture> image(const std::string& name, bool repeat_s, bool repeat_t);
 

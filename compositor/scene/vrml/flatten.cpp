@@ -1,5 +1,6 @@
 #include "compositor/scene/vrml/flatten.hpp"
 
+#include "compositor/scene/vrml/appearance.hpp"
 #include "compositor/scene/vrml/node_conversion.hpp"
 #include "compositor/scene/vrml/shapes.hpp"
 #include "rayspace/base/printable.hpp"
@@ -110,9 +111,8 @@ private:
         const auto key = std::pair(appearance.get(), mesh->topology);
         auto known = materials_.find(key);
         if (known == materials_.end()) {
-            std::string fault;
-            const Material material = material_of(appearance.get(), *mesh, folder(), images_, fault);
-            if (!fault.empty()) warn(*appearance->node("texture"), fault + "; drawn without");
+            const Material material = material_of(appearance.get(), mesh->topology, folder(), images_,
+                                                  [&](const Node& node, const std::string& what) { warn(node, what); });
             known = materials_.emplace(key, material).first;
         }
         scene_.geometry.push_back({mesh, known->second, state.world_from_node, state.lights});

@@ -3,6 +3,7 @@
 #include "compositor/scene/vrml/field_values.hpp"
 #include "compositor/scene/vrml/graph_builder.hpp"
 #include "rayspace/api/types/check.hpp"
+#include "rayspace/base/utf8.hpp"
 
 #include <deque>
 #include <optional>
@@ -66,6 +67,7 @@ public:
 
     void check_header(std::string_view text) const {
         if (text.starts_with(kHeader) || text.starts_with("#X3D V3") || text.starts_with("#X3D V4")) return;
+        if (is_utf16(text)) throw lexer_.error(1, "is UTF-16 text; save it as UTF-8");
         const std::string_view start = text.substr(0, text.find_first_of("\r\n"));
         if (start.starts_with("#VRML V1") || start.starts_with("#Inventor") || start.starts_with("#X3D")) {
             throw lexer_.error(1, "is " + quote({TokenKind::word, start, 1}) +

@@ -31,9 +31,27 @@ constexpr const char* kNodes[] = {
     "RaySpaceRoom child children MFNode child bboxCenter SFVec3f 0 0 0 bboxSize SFVec3f -1 -1 -1 "
     "description SFString \"\"",
     "Shape child appearance SFNode appearance geometry SFNode geometry",
-    "Appearance appearance material SFNode material texture SFNode texture textureTransform SFNode textureTransform",
+    "Appearance appearance alphaCutoff SFFloat 0.5 alphaMode SFString \"AUTO\" backMaterial SFNode material "
+    "material SFNode material texture SFNode texture textureTransform SFNode textureTransform",
     "Material material ambientIntensity SFFloat 0.2 diffuseColor SFColor 0.8 0.8 0.8 emissiveColor SFColor 0 0 0 "
-    "shininess SFFloat 0.2 specularColor SFColor 0 0 0 transparency SFFloat 0",
+    "shininess SFFloat 0.2 specularColor SFColor 0 0 0 transparency SFFloat 0 "
+    "ambientTexture SFNode texture ambientTextureMapping SFString \"\" "
+    "diffuseTexture SFNode texture diffuseTextureMapping SFString \"\" "
+    "emissiveTexture SFNode texture emissiveTextureMapping SFString \"\" "
+    "normalScale SFFloat 1 normalTexture SFNode texture normalTextureMapping SFString \"\" "
+    "occlusionStrength SFFloat 1 occlusionTexture SFNode texture occlusionTextureMapping SFString \"\" "
+    "shininessTexture SFNode texture shininessTextureMapping SFString \"\" "
+    "specularTexture SFNode texture specularTextureMapping SFString \"\"",
+    "UnlitMaterial material emissiveColor SFColor 1 1 1 emissiveTexture SFNode texture "
+    "emissiveTextureMapping SFString \"\" normalScale SFFloat 1 normalTexture SFNode texture "
+    "normalTextureMapping SFString \"\" transparency SFFloat 0",
+    "PhysicalMaterial material baseColor SFColor 1 1 1 emissiveColor SFColor 0 0 0 metallic SFFloat 1 "
+    "roughness SFFloat 1 transparency SFFloat 0 "
+    "baseTexture SFNode texture baseTextureMapping SFString \"\" "
+    "emissiveTexture SFNode texture emissiveTextureMapping SFString \"\" "
+    "metallicRoughnessTexture SFNode texture metallicRoughnessTextureMapping SFString \"\" "
+    "normalScale SFFloat 1 normalTexture SFNode texture normalTextureMapping SFString \"\" "
+    "occlusionStrength SFFloat 1 occlusionTexture SFNode texture occlusionTextureMapping SFString \"\"",
     "ImageTexture texture url MFString [ ] repeatS SFBool TRUE repeatT SFBool TRUE",
     "PixelTexture texture image SFImage 0 0 0 repeatS SFBool TRUE repeatT SFBool TRUE",
     "TextureTransform textureTransform center SFVec2f 0 0 rotation SFFloat 0 scale SFVec2f 1 1 "

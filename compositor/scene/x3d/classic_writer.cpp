@@ -87,13 +87,14 @@ bool is_ignored_attribute(std::string_view name) {
     return kNames.contains(name) || name.find(':') != std::string_view::npos;
 }
 
-// Field of a node that takes nodes of this group. Nodes that it does not take are named by their type, for the
-// reader's warning.
+// Field of a node that takes nodes of this group, if the file names none. Nodes that it does not take are named by
+// their type, for the reader's warning.
 std::string_view field_for(const NodeSpec& parent, std::string_view slot, std::string_view type) {
     bool has_children = false;
     for (const auto& [name, field] : parent.fields) {
         if (field.type != FieldType::kNode) continue;
-        if (field.slot == slot && name != "proxy") return name;
+        const bool is_secondary = name == "proxy" || name == "backMaterial" || name == "ambientTexture";
+        if (field.slot == slot && !is_secondary) return name;
         has_children = has_children || name == "children" || name == "level" || name == "choice";
     }
     return has_children ? "children" : type;

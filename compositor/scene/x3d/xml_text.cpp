@@ -46,9 +46,12 @@ void on_open(void* user, const XML_Char* name, const XML_Char** pairs) {
         }
         Attributes attributes;
         for (; *pairs != nullptr; pairs += 2) attributes.emplace_back(pairs[0], pairs[1]);
-        state.writer.open(name, attributes, state.line());
+        // Prefixes of XML namespaces ("x3d:Shape") are ignored.
+        const std::string_view whole = name;
+        state.writer.open(whole.substr(whole.find(':') + 1), attributes, state.line());
         if (!state.writer.has_root()) {
-            state.stop("its root is '" + printable(std::string_view(name).substr(0, 40)) + "', not X3D");
+            state.stop("its root is '" + printable(whole.substr(0, 40)) +
+                       "', not X3D; save the X3D element as a file of its own");
         }
     });
 }
@@ -73,6 +76,8 @@ struct ParserCloser {
 }  // namespace
 
 bool is_xml(std::string_view text) {
+    using namespace std::string_view_literals;
+    if (text.starts_with("\xff\xfe<\0"sv) || text.starts_with("\xfe\xff\0<"sv)) return true;  // UTF-16
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
     return begin != std::string_view::npos && text[begin] == '<';

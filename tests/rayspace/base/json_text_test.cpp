@@ -22,8 +22,13 @@ std::string nested(int depth) {
 
 TEST(JsonText, RefusesInOneLineWithThePlace) {
     EXPECT_EQ(refusal_of(R"({"a": [1, {"a": 2}, {"a": 3}], "b": {"a": 4}})"), "");
-    EXPECT_EQ(refusal_of("{\"a\": 1,\n\n]"),
-              "F: is not valid JSON at line 3; correct it there (NaN and Infinity are not JSON)");
+    EXPECT_EQ(refusal_of("{\"a\":\n\n NaN}"),
+              "F: is not valid JSON at line 3, column 2; correct it there (NaN and Infinity are not JSON)");
+    EXPECT_EQ(refusal_of("{\"a\": [1, 2,\n]}"),
+              "F: is not valid JSON at line 2, column 1: a comma precedes a closing bracket; remove it");
+    EXPECT_EQ(refusal_of("// by me\n{}"), "F: is not valid JSON at line 1, column 1: JSON has no comments; remove it");
+    EXPECT_EQ(refusal_of(" \n"), "F: is not valid JSON but empty; write it again");
+    EXPECT_EQ(refusal_of(std::string("\xff\xfe{\0", 4)), "F: is not valid JSON but UTF-16 text; save it as UTF-8");
     EXPECT_EQ(refusal_of("[1e999]"), "F: holds a number that is out of range; correct it");
     EXPECT_EQ(refusal_of(R"({"b": [{"a\n": 1, "c": 2, "a\n": 3}]})"),
               "F: the key \"a\\x0A\" is there twice in one object; keep one of them");

@@ -21,10 +21,14 @@ TEST(FileReference, SpellingsOfOtherMachinesAreResolved) {
         if (std::string(reference) == "./../") continue;
         EXPECT_EQ(*found, file) << reference;
     }
-    // Names in the folder itself stand for absolute paths of another machine.
+    // Ends that exist in the folder stand for absolute paths of another machine.
     for (const char* reference :
          {"C:\\Users\\a\\my t\xC3\xBC.png", "/home/a/my%20t\xC3\xBC.png", "file:///D:/my t\xC3\xBC.png"}) {
         EXPECT_EQ(resolve_reference(reference, folder / "Sub"), file) << reference;
+    }
+    ASSERT_TRUE(write_file(folder / "my t\xC3\xBC.png", std::string("x")));
+    for (const char* reference : {"C:\\a\\Sub\\my%20t\xC3\xBC.png", "/home/a/Sub/my t\xC3\xBC.png"}) {
+        EXPECT_EQ(resolve_reference(reference, folder.path()), file) << reference;
     }
 }
 

@@ -49,6 +49,16 @@ TEST(IesFile, SpacesCaseBlankLinesAndByteOrderMarksOfEditorsAreAccepted) {
     EXPECT_NE(broken.error().message.find("line 5"), std::string::npos) << broken.error().message;
 }
 
+TEST(IesFile, Utf16IsRefusedByName) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"a.ies", "a.ldt"}) {
+        ASSERT_TRUE(write_file(folder / name, std::string("\xff\xfeI\0", 4)));
+        const auto read = read_luminaire(folder / name);
+        ASSERT_FALSE(read);
+        EXPECT_NE(read.error().message.find("is UTF-16 text; save it as UTF-8"), std::string::npos);
+    }
+}
+
 TEST(IesFile, TiltStandsInTheFileOrBesideIt) {
     const std::string table = "\n1\n3 0 45\n90\n1 .9 .7\n";
     const auto included = parse_ies(kHead + "TILT=INCLUDE" + table + kNumbers.substr(2), "a.ies");

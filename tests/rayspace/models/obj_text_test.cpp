@@ -16,5 +16,14 @@ TEST(ObjText, BadIndicesAreFoundByLine) {
     EXPECT_EQ(find_bad_obj_index(""), "");
 }
 
+TEST(ObjText, NamesAreThoseOfLibrariesAndMaterials) {
+    const ObjNames names =
+        names_in_obj("mtllib my hall.mtl\r\nusemtl b\n usemtl a c \nusemtl b\nusemtl (null)\nusemtl");
+    EXPECT_EQ(names.libraries, std::set<std::string>{"my hall.mtl"});
+    EXPECT_EQ(names.materials, (std::set<std::string>{"a c", "b"}));
+    EXPECT_FALSE(names.has_free_forms);
+    EXPECT_TRUE(names_in_obj("curv2 1 2\n").has_free_forms);
+}
+
 }  // namespace
 }  // namespace rs

@@ -119,6 +119,7 @@ std::vector<Damage> order_damages() {
     const std::string kBoard = "board-random-small";
     const std::string kShaped = "raw-shape";
     const std::string kStanding = "raw-33x21-foot";
+    const std::string kTurned = "raw-axis";
     const std::string kUnknown = "unknown or out of place";
     return {
         added("unknown", kBase, {{'N', 'E', 'W', 'S'}, 0, one_byte}, "chunk NEWS 0 | " + kUnknown),
@@ -126,6 +127,9 @@ std::vector<Damage> order_damages() {
         added("second-code", kBoard, {kCode, 1, one_byte}, "chunk CODE 1 | " + kUnknown),
         added("shape-of-no-ring", kShaped, {kShape, 9, one_byte}, "chunk shap 9 | out of place"),
         added("second-foot", kStanding, {kFoot, 1, Bytes(4)}, "chunk foot 1 | out of place"),
+        added("axis-of-no-ring", kTurned, {kAxis, 9, Bytes(16)}, "chunk AXIS 9 | out of place"),
+        moved("axis-before-ring", kTurned, {kAxis, 1}, {kRing, 1}, "chunk AXIS 1 | out of place"),
+        moved("axis-behind-map", kTurned, {kAxis, 1}, {kImage, 3}, kUnknown),
         moved("foot-before-view", kStanding, {kFoot, 0}, {kViews, 0}, "chunk foot 0 | out of place"),
         moved("foot-behind-ring", kStanding, {kFoot, 0}, {kMap, 0}, kUnknown),
         missing(kBase, kHead, 0, "no chunk HEAD 0"),

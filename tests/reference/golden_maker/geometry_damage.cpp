@@ -1,4 +1,4 @@
-// FORMAT.md, "HEAD", "RIGJ", "VIEW", "RING", "RMAP", and "PICT" of coding 0, with their numbers of "Ranges".
+// FORMAT.md, "HEAD", "RIGJ", "VIEW", "RING", "AXIS", "RMAP", and "PICT" of coding 0, with their numbers of "Ranges".
 #include "tests/reference/golden_maker/golden_damage.hpp"
 
 #include "rayspace/api/types/check.hpp"
@@ -15,6 +15,7 @@ using namespace object_chunks;
 
 const std::string kBase = "raw";                 // 3 views, 3 planes, maps of 2 x 3 cells
 const std::string kStanding = "raw-33x21-foot";  // 8 views, coded lines
+const std::string kTurned = "raw-axis";          // its second ring has another axis
 constexpr std::size_t kViewCount = 3, kPlanes = 3;
 constexpr std::size_t kViewList = 28;
 constexpr std::size_t kLines = kViewList + 2 * kViewCount;
@@ -86,6 +87,27 @@ Damage radius(const std::string& name, double value) {
     static_assert(sizeof bits == sizeof value);
     std::memcpy(&bits, &value, sizeof bits);
     return number_damage("head-radius-" + name, kBase, kHead, 0, 16, 8, bits, "units per radius");
+}
+
+Damage axis(const std::string& name, const std::string& words, const std::function<void(Bytes&)>& change) {
+    return {"axis-" + name, kTurned, words, [=](Draft& d) { change(d.payload(kAxis, 1)); }};
+}
+
+std::vector<Damage> axes() {
+    constexpr std::int64_t kOne = std::int64_t{1} << 30;
+    return {
+        axis("short", "chunk AXIS 1 | bytes long", [](Bytes& payload) { payload.pop_back(); }),
+        axis("long", "chunk AXIS 1 | bytes long", [](Bytes& payload) { payload.push_back(std::byte{0}); }),
+        axis("identity", "chunk AXIS 1 | identity",
+             [=](Bytes& payload) {
+                 payload.assign(16, std::byte{0});
+                 set_number(payload, 12, kOne, 4);
+             }),
+        axis("zero", "ring 1 | unit quaternion", [](Bytes& payload) { payload.assign(16, std::byte{0}); }),
+        // The sum of squares is 1 + 1.4e-6.
+        axis("not-unit", "ring 1 | unit quaternion",
+             [](Bytes& payload) { set_number(payload, 8, number_at(payload, 8, 4) + 1100, 4); }),
+    };
 }
 
 std::vector<Damage> sizes() {
@@ -222,7 +244,7 @@ std::vector<Damage> rules() {
 
 std::vector<Damage> geometry_damages() {
     std::vector<Damage> all = sizes();
-    for (auto* const list : {&ranges, &rules}) {
+    for (auto* const list : {&ranges, &rules, &axes}) {
         for (Damage& damage : (*list)()) all.push_back(std::move(damage));
     }
     return all;

@@ -37,6 +37,13 @@ RaySpaceObject with_foot(RaySpaceObject object) {
     return object;
 }
 
+// The second ring surrounds the object's X axis: a quarter turn about Z.
+RaySpaceObject raw_with_axis() {
+    RaySpaceObject object = test::small_object(smallest(2));
+    object.rings[1].rotation = {.z_q30 = 759250125, .w_q30 = 759250125};
+    return object;
+}
+
 struct DrawnSize {
     int width, height, views, rings;
     bool has_shape;
@@ -114,6 +121,7 @@ std::vector<GoldenObject> golden_objects() {
     std::vector<GoldenObject> objects;
     objects.push_back({"raw", test::small_object(smallest(1)), true});
     objects.push_back({"raw-shape", raw_with_shape()});
+    objects.push_back({"raw-axis", raw_with_axis()});
     objects.push_back({"raw-33x21-foot", with_foot(test::small_object(odd))});
     objects.push_back({"dense-16x16-alpha1", dense({70, 50, 9, 1, false}, 4, 4, 1, 4)});
     objects.push_back({"dense-32x32-alpha2-shape", dense({100, 64, 8, 1, true}, 5, 5, 2, 12)});

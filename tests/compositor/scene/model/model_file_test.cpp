@@ -288,6 +288,148 @@ TEST_F(ModelFile, TextureTransformsMoveTextureCoordinates) {
     EXPECT_FLOAT_EQ(width(*of_obj), 4);
 }
 
+// Coordinates of the colour texture by KHR_texture_transform (offset + rotation * scale * uv, v downwards), and by
+// MTL's -s and -o (scale * uv + offset).
+TEST_F(ModelFile, TextureTransformsAreExact) {
+    ASSERT_TRUE(write_png(folder_ / "a.png", Image<Rgba8>(2, 2, Rgba8{255, 0, 0, 255}).view()).ok());
+    const auto with = [&](const std::string& transform) {
+        return read(gltf(R"({"mesh": 0})", R"(, "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0,
+        "extensions": {"KHR_texture_transform": {)" +
+                                               transform + R"(}}}}}], "textures": [{"source": 0}],
+        "images": [{"uri": "a.png"}], "extensionsUsed": ["KHR_texture_transform"])"));
+    };
+    for (const double angle : {0.0, 0.5, -2.0}) {
+        const auto scene = with(R"("scale": [2, 3], "offset": [1.25, -0.1], "rotation": )" + std::to_string(angle));
+        ASSERT_TRUE(scene) << scene.error().message;
+        const std::vector<MeshVertex>& vertices = scene->geometry.at(0).mesh->vertices;
+        ASSERT_EQ(vertices.size(), 3U);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double u = 2 * static_cast<double>(kData[9 + 2 * i]), v = 3 * static_cast<double>(kData[10 + 2 * i]);
+            EXPECT_NEAR(vertices[i].texture.x, std::cos(angle) * u + std::sin(angle) * v + 1.25, 1e-5);
+            EXPECT_NEAR(1 - vertices[i].texture.y, -std::sin(angle) * u + std::cos(angle) * v - 0.1, 1e-5);
+        }
+    }
+    std::ofstream(folder_ / "m.mtl") << "newmtl m\nmap_Kd -s 4 2 1 -o 0.5 0.25 0 a.png\n";
+    const auto of_obj =
+        read("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n", "m.obj");
+    ASSERT_TRUE(of_obj) << of_obj.error().message;
+    const std::vector<MeshVertex>& vertices = of_obj->geometry.at(0).mesh->vertices;
+    EXPECT_EQ(vertices.at(0).texture, glm::vec2(0.5F, 0.25F));
+    EXPECT_EQ(vertices.at(1).texture, glm::vec2(4.5F, 0.25F));
+    EXPECT_EQ(vertices.at(2).texture, glm::vec2(0.5F, 2.25F));
+}
+
+TEST_F(ModelFile, TheColourTextureMayUseTheSecondSetOfCoordinates) {
+    ASSERT_TRUE(write_png(folder_ / "a.png", Image<Rgba8>(2, 2, Rgba8{255, 0, 0, 255}).view()).ok());
+    std::string text = gltf(R"({"mesh": 0})", R"(, "materials": [{"pbrMetallicRoughness": {"baseColorTexture":
+        {"index": 0, "texCoord": 1}}}], "textures": [{"source": 0}], "images": [{"uri": "a.png"}])");
+    const std::string first = R"("TEXCOORD_0": 1)";
+    // The first set has the positions' x and y.
+    text.replace(text.find(first), first.size(), R"("TEXCOORD_0": 2, "TEXCOORD_1": 1)");
+    text.insert(text.find(R"("type": "VEC2"})") + 15,
+                R"(, {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC2"})");
+    text.insert(text.find(R"("byteLength": 24})") + 17, R"(, {"buffer": 0, "byteOffset": 0, "byteLength": 24})");
+    const auto scene = read(text);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const std::vector<MeshVertex>& vertices = scene->geometry.at(0).mesh->vertices;
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(vertices.at(i).texture, glm::vec2(kData[9 + 2 * i], 1 - kData[10 + 2 * i]));
+    }
+}
+
+TEST_F(ModelFile, MaterialsOfObjThatAreMissingAreNamed) {
+    const std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    const auto warnings_of = [&](const std::string& text) {
+        const auto scene = read(text, "hall.obj");
+        EXPECT_TRUE(scene) << scene.error().message;
+        return scene ? scene->warnings : std::vector<std::string>{};
+    };
+    std::ofstream(folder_ / "a.mtl") << "newmtl Red shiny metal\nKd 1 0 0\n";
+    EXPECT_THAT(warnings_of("mtllib a.mtl\n" + faces + "usemtl Red shiny metal \r\nf 1 2 3\nusemtl None\nf 3 2 1\n"),
+                IsEmpty());
+    EXPECT_THAT(warnings_of("mtllib gone.mtl\n" + faces + "usemtl x\nf 1 2 3\n"),
+                ElementsAre(HasSubstr("hall.obj: the material library gone.mtl does not exist")));
+    EXPECT_THAT(warnings_of("mtllib a.mtl\n" + faces + "usemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n"),
+                ElementsAre(HasSubstr("hall.obj: no material library defines b and 1 more; drawn grey")));
+    EXPECT_THAT(warnings_of(faces + "deg 1 1\nsurf 0 1 0 1 1 2 3 3\nend\nf 1 2 3\n"),
+                ElementsAre(HasSubstr("free-form curves and surfaces are ignored")));
+}
+
+TEST_F(ModelFile, OtherEncodingsAndEditionsAreRefusedByName) {
+    const auto utf16 = read(std::string("\xff\xfev\0 \0", 6), "hall.obj");
+    ASSERT_FALSE(utf16);
+    EXPECT_THAT(utf16.error().message, HasSubstr("hall.obj: is UTF-16 text; save it as UTF-8"));
+    std::string text = gltf(R"({"mesh": 0})", kMaterial);
+    text.replace(text.find("2.0"), 3, "1.0");
+    const auto first = read(text);
+    ASSERT_FALSE(first);
+    EXPECT_THAT(first.error().message, HasSubstr("hall.gltf: is of glTF 1; convert it to glTF 2.0"));
+}
+
+// Highlights of metals have the mean colour of what multiplies their base colour; a rough white metal would else be
+// white under each light, whatever its texture.
+TEST_F(ModelFile, HighlightsOfMetalsHaveTheColourOfTheirTexture) {
+    ASSERT_TRUE(write_png(folder_ / "a.png", Image<Rgba8>(2, 2, Rgba8{255, 0, 0, 255}).view()).ok());
+    // Roughness and metallic are those of the texture: 0.2 and 1.
+    ASSERT_TRUE(write_png(folder_ / "mr.png", Image<Rgba8>(2, 2, Rgba8{0, 51, 255, 255}).view()).ok());
+    const auto scene = read(gltf(R"({"mesh": 0})", R"(, "materials": [{"pbrMetallicRoughness": {"baseColorTexture":
+        {"index": 0}, "metallicRoughnessTexture": {"index": 1}}}], "textures": [{"source": 0}, {"source": 1}],
+        "images": [{"uri": "a.png"}, {"uri": "mr.png"}])"));
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Material& metal = scene->geometry.at(0).material;
+    EXPECT_EQ(metal.specular, glm::vec3(1, 0, 0));
+    EXPECT_FLOAT_EQ(metal.shininess, 1);
+    std::string text = gltf(R"({"mesh": 0})", R"(, "materials": [{}])");
+    const std::string place = R"("TEXCOORD_0": 1)";
+    text.replace(text.find(place), place.size(), R"("COLOR_0": 0)");  // the mean of the positions: 1/3, 1/3, 0
+    const auto coloured = read(text);
+    ASSERT_TRUE(coloured) << coloured.error().message;
+    EXPECT_NEAR(coloured->geometry.at(0).material.specular.g, 1.0 / 3, 1e-6);
+    EXPECT_FLOAT_EQ(coloured->geometry.at(0).material.specular.b, 0);
+}
+
+TEST_F(ModelFile, NormalTexturesWithOtherCoordinatesAreNamed) {
+    ASSERT_TRUE(write_png(folder_ / "a.png", Image<Rgba8>(2, 2, Rgba8{128, 128, 255, 255}).view()).ok());
+    const auto with = [&](const std::string& colours) {
+        return read(gltf(R"({"mesh": 0})", R"(, "materials": [{"name": "wall", "pbrMetallicRoughness": {)" + colours +
+                                               R"(}, "normalTexture": {"index": 0, "extensions":
+        {"KHR_texture_transform": {"scale": [2, 2]}}}}], "textures": [{"source": 0}], "images": [{"uri": "a.png"}],
+        "extensionsUsed": ["KHR_texture_transform"])"));
+    };
+    const auto alone = with("");
+    ASSERT_TRUE(alone) << alone.error().message;
+    EXPECT_THAT(alone->warnings, IsEmpty());
+    EXPECT_TRUE(alone->geometry.at(0).material.normals);
+    EXPECT_EQ(alone->geometry.at(0).mesh->vertices.at(1).texture, glm::vec2(2, -1));
+    const auto both = with(R"("baseColorTexture": {"index": 0})");
+    ASSERT_TRUE(both) << both.error().message;
+    EXPECT_THAT(both->warnings,
+                ElementsAre(HasSubstr("material \"wall\": the normal texture has other coordinates than the color")));
+    EXPECT_FALSE(both->geometry.at(0).material.normals);
+}
+
+TEST_F(ModelFile, UnlitMaterialsHaveTheirBaseColour) {
+    const auto scene = read(gltf(R"({"mesh": 0})", R"(, "materials": [{"pbrMetallicRoughness": {"baseColorFactor":
+        [0.5, 1, 0.25, 1]}, "extensions": {"KHR_materials_unlit": {}}}], "extensionsUsed": ["KHR_materials_unlit"])"));
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_FALSE(scene->geometry.at(0).material.lit);
+    EXPECT_EQ(scene->geometry.at(0).material.diffuse, glm::vec3(0.5F, 1, 0.25F));
+}
+
+TEST_F(ModelFile, GaussianSplatsArePointsOfTheirColour) {
+    const auto scene = read(
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+        "property float z\nproperty float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\n"
+        "property float opacity\nend_header\n0 0 0 1.7724539 0 -1.7724539 9\n",
+        "splat.ply");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->geometry.at(0).mesh->topology, Topology::kPoints);
+    const glm::vec4 colour = scene->geometry.at(0).mesh->vertices.at(0).colour;
+    EXPECT_NEAR(colour.r, 1, 1e-5);
+    EXPECT_NEAR(colour.g, 0.21404, 1e-4);  // sRGB 0.5
+    EXPECT_NEAR(colour.b, 0, 1e-5);
+}
+
 TEST_F(ModelFile, ObjectsAloneMakeAScene) {
     const auto scene = read(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
         "nodes": [{"extras": {"RaySpace": {"url": "a.rso"}}}]})");

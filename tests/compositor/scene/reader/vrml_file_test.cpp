@@ -282,6 +282,41 @@ TEST(VrmlFile, NodesOfX3DThatAreNotKnownAreNamed) {
                                              HasSubstr("line 4: 'Wiggle' is an unknown node")));
 }
 
+// A world in several encodings and line ends; each must be read without a warning.
+TEST(VrmlFile, EncodingsLineEndsAndNamespacesAreRead) {
+    using namespace std::string_literals;
+    const std::string mark = "\xef\xbb\xbf";
+    const std::string nodes =
+        "<x3d:Scene>\r\n<x3d:Group><x3d:Shape DEF='a'><x3d:Box/></x3d:Shape></x3d:Group>"
+        "<x3d:Shape USE='a'/></x3d:Scene></x3d:X3D>";
+    const std::string prefixed = "<x3d:X3D xmlns:x3d='http://www.web3d.org/specifications/x3d-4.0.xsd'>" + nodes;
+    std::string utf16 = "\xff\xfe";
+    for (const char c : prefixed) utf16 += c + "\0"s;
+    const std::string body = "DEF a Shape { geometry Box { } }\r\nUSE a\r\n";
+    for (const std::string& text :
+         {prefixed, mark + prefixed, utf16, mark + "#VRML V2.0 utf8\r\n" + body, "#VRML V2.0 utf8\r" + body,
+          mark + "#X3D V4.0 utf8\r\nPROFILE Interactive\r\n" + body,
+          mark + "#VRML V1.0 ascii\r\nSeparator { DEF a Cube { }\r\nUSE a }"}) {
+        SCOPED_TRACE(text);
+        const Result<Scene> scene = scene_from_vrml(text, "hall.wrl");
+        ASSERT_TRUE(scene) << scene.error().message;
+        EXPECT_THAT(scene->warnings, IsEmpty());
+        EXPECT_EQ(scene->geometry.size(), 2U);
+    }
+}
+
+TEST(VrmlFile, OtherFormatsOfWorldsAreRefusedByName) {
+    for (const auto& [text, message] :
+         {std::pair("#Inventor V2.1 ascii\nSeparator { Cube { } }", "is '#Inventor V2.1 ascii', not VRML97"),
+          std::pair("#Inventor V2.1 binary\n", "convert it to VRML97"),
+          std::pair("\xff\xfe#", "is UTF-16 text; save it as UTF-8"),
+          std::pair("<html><body><X3D/></body></html>", "its root is 'html', not X3D; save the X3D element")}) {
+        const Result<Scene> scene = scene_from_vrml(text, "hall.iv");
+        ASSERT_FALSE(scene);
+        EXPECT_THAT(scene.error().message, HasSubstr(message));
+    }
+}
+
 TEST(VrmlFile, PartsOfCadModelsAreMoved) {
     const auto scene = scene_from_vrml(
         "<X3D version='3.3'><Scene><CADLayer><CADAssembly><CADPart translation='1 2 3'><CADFace><Shape><Box/></Shape>"
