@@ -114,12 +114,8 @@ void add_parallel_blocks(PackageText& package) {
     package.add("filtered_bits", FilteredSample::kBits);
     package.add("patches_bits", PatchJob::kBits);
     package.add("scanned_bits", ScannedPixel::kBits);
-    package.add("rise_columns_bits", ColumnSetup::kRiseBits);
-    package.add("march_columns_bits", ColumnSetup::kMarchBits);
     package.add("risen_bits", PixelBandRay::kBits);
     package.add("met_bits", SurfaceHit::kBits);
-    package.add("ray_none", static_cast<int>(RayKind::none));
-    package.add("ray_shape", static_cast<int>(RayKind::shape));
     package.add("ray_rise_stages", RayRise::kStages);
     package.add("cell_march_stages", CellMarch::kStages);
     package.add("march_at_foot", MarchState::kFoot);

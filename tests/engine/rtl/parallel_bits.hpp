@@ -34,16 +34,6 @@ inline Bits pack(const model::ScannedPixel& m) {
     BitsWriter writer(m.kBits);
     return put(writer, m).bits();
 }
-// The part of a column that a block stores.
-inline Bits pack(const model::ColumnSetup& m, int width_bits) {
-    BitsWriter writer(width_bits);
-    writer.put(m.view, 4).put(static_cast<int>(m.kind), 2).put(m.stripe, 2).put(m.column, 4);
-    if (width_bits == m.kRiseBits) {
-        return writer.put(m.lambda_foot_q20, 30).put(m.inverse_r_q20, 25).put(m.inverse_rho_q20, 22).bits();
-    }
-    RS_CHECK(width_bits == m.kMarchBits);
-    return writer.put(m.weight, 9).put(m.line_part, 3).put(m.p_part, 3).put(m.same_cells, 1).bits();
-}
 inline Bits pack(const model::PixelBandRay& m) {
     BitsWriter writer(m.kBits);
     return put(writer, m.pixel).put(m.foot_q12, 30).put(m.per_d_q20, 24).bits();
