@@ -236,8 +236,11 @@ Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int m
     }
     if (failure) return Error{folder.string() + ": listing stopped (" + failure.message() + "); check the disk"};
     if (found.photos.empty()) {
-        return Error{folder.string() +
-                     ": holds no images; give a folder of PNG, JPEG, TIFF, WebP or HEIC "
+        const std::size_t count = found.ignored.size();
+        const std::string more = count > 1 ? " and " + std::to_string(count - 1) + " more" : "";
+        return Error{folder.string() + ": holds no images" +
+                     (count > 0 ? ", but " + *std::ranges::min_element(found.ignored) + more : "") +
+                     "; give a folder of PNG, JPEG, TIFF, WebP or HEIC "
                      "files (a camera's raw files must be developed first)"};
     }
     sort_photos(found.photos);

@@ -4,6 +4,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/file/input_file.hpp"
 #include "rayspace/image_io/photo_size.hpp"
 
 #include <glm/gtc/quaternion.hpp>
@@ -208,6 +209,22 @@ Status read_text_image(std::string_view line, const std::string& place, ModelBui
     return model.add_image(camera, std::string(line), pose, place);
 }
 
+// Checks the second line of an image: X Y POINT3D_ID of each point, or nothing. Without these lines every other image
+// would be skipped.
+Status check_points(std::string_view line, const std::string& place) {
+    std::size_t numbers = 0;
+    double number = 0;
+    bool are_numbers = true;
+    while (are_numbers && line.find_first_not_of(" \t") != std::string_view::npos) {
+        are_numbers = take_number(line, number);
+        ++numbers;
+    }
+    if (are_numbers && numbers % 3 == 0) return {};
+    return Error{place +
+                 ": X Y POINT3D_ID of the image's points are expected; each image has a second line, which may "
+                 "be empty"};
+}
+
 Result<PosedCamera> read_binary_lens(ByteReader& reader, const std::string& place) {
     const auto id = reader.get<std::int32_t>();
     const auto width = reader.get<std::uint64_t>();
@@ -317,12 +334,14 @@ Result<PosedModel> read_colmap_model(const fs::path& folder) {
 Result<PosedModel> colmap_model_from_text(std::string_view cameras, std::string_view images,
                                           const std::string& folder) {
     ModelBuilder model(folder);
+    cameras = without_byte_order_mark(cameras);
+    images = without_byte_order_mark(images);
     ModelLines lenses(cameras, (fs::path(folder) / "cameras.txt").string());
     while (const auto line = lenses.next_record()) RS_TRY(read_text_camera(*line, lenses.place(), model));
     ModelLines records(images, (fs::path(folder) / "images.txt").string());
     while (const auto line = records.next_record()) {
         RS_TRY(read_text_image(*line, records.place(), model));
-        (void)records.next();  // POINTS2D[], which may be empty
+        if (const auto points = records.next()) RS_TRY(check_points(*points, records.place()));
     }
     return std::move(model).finish();
 }

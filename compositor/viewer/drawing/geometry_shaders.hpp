@@ -226,6 +226,7 @@ void main() {
         if (kReflection != 0) {
             vec3 share = reflectance(diffuse, clamp(dot(n, view), 0.0, 1.0));
             mirrored = share * surroundings(reflect(-view, n), material[5].y);
+            specular = mix(specular, diffuse, material[5].x);  // metals: with texture and vertex colours
             diffuse *= (1.0 - share) * (1.0 - material[5].x);
             if (kReflection == 2) {
                 diffuse *= opacity;

@@ -53,6 +53,7 @@ Result<OpenedImage> open_image(const std::string& path, Need need, int max_side_
     std::error_code error;
     if (!std::filesystem::exists(path, error)) return Error{path + ": does not exist; check the name"};
     if (std::filesystem::is_directory(path, error)) return Error{path + ": is a folder, not an image"};
+    if (std::filesystem::is_empty(path, error)) return Error{path + ": is an empty file; get it again or remove it"};
     if (need == Need::kWholeFile) {
         RS_TRY(check_png_integrity(path));
     }
@@ -66,7 +67,10 @@ Result<OpenedImage> open_image(const std::string& path, Need need, int max_side_
         const std::lock_guard lock(opening);
         return OIIO::ImageInput::open(path, &hints);
     }();
-    if (!input) return Error{path + ": cannot be read as an image: " + one_line(OIIO::geterror())};
+    if (!input) {
+        return Error{path + ": cannot be read as an image: " + one_line(OIIO::geterror()) +
+                     "; get it again or remove it"};
+    }
     const OIIO::ImageSpec& spec = input->spec();
     const int width = spec.full_width > 0 ? spec.full_width : spec.width;
     const int height = spec.full_height > 0 ? spec.full_height : spec.height;

@@ -108,7 +108,11 @@ TEST(PhotoFolder, RefusesWhatHoldsNoImages) {
     const test::TemporaryFolder folder;
     const Result<PhotoFolder> empty = open_photo_folder(folder.path());
     ASSERT_FALSE(empty.ok());
-    EXPECT_THAT(empty.error().message, HasSubstr(folder.path().string() + ": holds no images"));
+    EXPECT_THAT(empty.error().message, HasSubstr(folder.path().string() + ": holds no images; give"));
+    for (const char* name : {"b.txt", "a.gif"}) std::ofstream(folder / name) << "x";
+    const Result<PhotoFolder> others = open_photo_folder(folder.path());
+    ASSERT_FALSE(others.ok());
+    EXPECT_THAT(others.error().message, HasSubstr(": holds no images, but a.gif and 1 more; give"));
     EXPECT_FALSE(open_photo_folder(folder / "absent").ok());
 }
 

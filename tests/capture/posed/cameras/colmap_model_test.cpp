@@ -94,6 +94,12 @@ TEST(ColmapModel, FaultyTextIsRefusedWithItsPlace) {
     EXPECT_THAT(text_error(pinhole, "1 0 0 0 0 0 0 2 1 a.png\n\n"), HasSubstr("quaternion"));
     EXPECT_THAT(text_error(pinhole, "1 1 0 0 0 0 0 2 1\n\n"), HasSubstr("name is empty"));
     EXPECT_THAT(text_error(pinhole, "# none\n"), HasSubstr("has no images"));
+    // Without the lines of points every other image would be skipped.
+    const std::string image = "1 1 0 0 0 0 0 2 1 a.png\n";
+    EXPECT_THAT(text_error(pinhole, image + "2" + image.substr(1)),
+                HasSubstr("images.txt:2: X Y POINT3D_ID of the image's points are expected; each image has a second"));
+    EXPECT_THAT(text_error(pinhole, image + "1 2 -1 3 4\n"), HasSubstr("images.txt:2: X Y POINT3D_ID"));
+    EXPECT_TRUE(colmap_model_from_text("\xef\xbb\xbf" + pinhole, "\xef\xbb\xbf" + image, "m").ok());
 }
 
 struct BinaryModel {

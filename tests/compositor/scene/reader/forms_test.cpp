@@ -320,6 +320,18 @@ Transform { translation 3 0 0 children [ Shape { appearance Appearance { materia
               kFormsAgree_dB);
 }
 
+// The highlight of a rough metal covers all of it.
+TEST_F(Forms, RoughMetalsHaveTheirVertexColours) {
+    const Scene scene = scene_in_form(
+        "#X3D V4.0 utf8\nPROFILE Full\nShape { appearance Appearance { material PhysicalMaterial { } } geometry "
+        "TriangleSet { coord Coordinate { point [ -9 -9 0, 9 -9 0, 0 9 0 ] } color Color { color [ 1 0 0, 1 0 0, 1 0 "
+        "0 ] } } }");
+    ASSERT_EQ(scene.geometry.size(), 1U);
+    const Image<Rgba8> image = image_of(scene, look_at_camera({0, 0, 5}, {0, 0, 0}, 0.8, 16, 16));
+    EXPECT_GT(image(8, 8).r, 150);
+    EXPECT_LT(image(8, 8).g, 30);
+}
+
 TEST_F(Forms, X3dInItsClassicEncoding) {
     EXPECT_GE(
         agreement(R"(#X3D V3.0 utf8
