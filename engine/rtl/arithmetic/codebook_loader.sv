@@ -45,8 +45,8 @@ module codebook_loader (
   assign written_next = written + {14'd0, write};
   assign is_loaded = loading && written_next == book_words;
 
-  assign exists = {predicted_quarters > 3'd3, predicted_quarters > 3'd2, predicted_quarters > 3'd1, predicted_quarters > 3'd0,
-                   predicted_blocks > 2'd1, predicted_blocks > 2'd0,
+  assign exists = {predicted_quarters > 3'd3, predicted_quarters > 3'd2, predicted_quarters > 3'd1,
+                   predicted_quarters > 3'd0, predicted_blocks > 2'd1, predicted_blocks > 2'd0,
                    flat_quarters > 3'd3, flat_quarters > 3'd2, flat_quarters > 3'd1, flat_quarters > 3'd0,
                    flat_blocks > 2'd1, flat_blocks > 2'd0};
   always_comb begin

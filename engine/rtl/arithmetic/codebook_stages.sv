@@ -1,4 +1,5 @@
-// Six stages of a codebook look-up: the entries of a pixel are added to its flat colour. All stages stall while `moves` is 0.
+// Six stages of a codebook look-up: the entries of a pixel are added to its flat colour. All stages stall while `moves` is
+// 0.
 //
 //     1  addresses      3, 4  sums of the entries of flat and of predicted records     6  + prediction, clamp
 //     2  banks          5     + flat colour, clamp

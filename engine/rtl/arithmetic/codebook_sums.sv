@@ -65,7 +65,8 @@ module codebook_sums #(
       ) block_bank (
           .clk(clk), .write_y(writes && !write_part[3]), .write_u(writes && write_part[3:1] == 3'd4),
           .write_v(writes && write_part[3:1] == 3'd5), .write_entry(write_entry), .write_row(write_part[2:0]),
-          .write_data(write_data), .read(moves), .entry(ENTRY_BITS'({second_set, in.block[8*stage+:8]})), .row(in.y), .chroma_row(in.y[2]),
+          .write_data(write_data), .read(moves),
+          .entry(ENTRY_BITS'({second_set, in.block[8*stage+:8]})), .row(in.y), .chroma_row(in.y[2]),
           .y(y_word), .u(u_word), .v(v_word)
       );
       assign block_samples[24*stage+:24] = blocks <= 2'(stage) ? 24'd0 :
@@ -81,7 +82,8 @@ module codebook_sums #(
       ) quarter_bank (
           .clk(clk), .write_y(writes && write_part[2:1] == 2'd0), .write_u(writes && write_part[2:1] == 2'd1),
           .write_v(writes && write_part[2:1] == 2'd2), .write_entry(write_entry), .write_row(write_part[0]),
-          .write_data(write_data), .read(moves), .entry(ENTRY_BITS'({second_set, in.quarter[8*stage+:8]})), .row(chroma_row),
+          .write_data(write_data), .read(moves),
+          .entry(ENTRY_BITS'({second_set, in.quarter[8*stage+:8]})), .row(chroma_row),
           .chroma_row(chroma_row), .y(y_word), .u(u_word), .v(v_word)
       );
       assign quarter_samples[24*stage+:24] = quarters <= 3'(stage) ? 24'd0 :

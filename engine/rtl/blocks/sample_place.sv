@@ -9,9 +9,9 @@
 //     35        q1, lambda1, step of the column    51, 52    texels
 //
 // A surface at or before the viewpoint (lambda <= 0) has no sample, so lambda's sign decides in the first cycle how many
-// there are. Since lambda grows with the depth, it is known by a comparison with the last depth at which lambda <= 0, which
-// is found bit by bit in the twelve cycles after a column arrives. Its first pixel arrives 38 cycles after it (ray_rise,
-// cell_march).
+// there are. Since lambda grows with the depth, a comparison with the last depth at which lambda <= 0 gives the sign. That
+// depth is found bit by bit in the twelve cycles after a column arrives; its first pixel arrives 38 cycles after it
+// (ray_rise, cell_march).
 module sample_place (
     input  logic clk,
     input  logic rst,
@@ -101,7 +101,7 @@ module sample_place (
   always_ff @(posedge clk) begin
     if (rst) arrived <= '0;
     else arrived <= {arrived[BEHIND_BITS-1:0], place_columns_valid};
-    rests[0] <= 36'd15 - {{1{column.lambda0_q20[30]}}, column.lambda0_q20, 4'd0};
+    rests[0] <= 36'd15 - {column.lambda0_q20[30], column.lambda0_q20, 4'd0};
     steps[0] <= column.lambda1_q21;
     depths[0] <= '0;
     heads[0] <= {column_place, column.kind == 2'(board::RAY_PLANE), column.weight == 9'd0, column.weight == 9'd256,
