@@ -129,6 +129,10 @@ void add_parallel_blocks(PackageText& package) {
     package.add("texel_filter_stages", TexelFilter::kStages);
     package.add("raw_block_words", kRawBlockWords);
     package.add("stripe_turn", kStripeTurn);
+    const ParallelFifos fifos;
+    for (const FifoState* fifo : fifos.fifos()) {
+        package.add_fifo("parallel_" + fifo->name(), fifo->depth(), fifo->width_bits());
+    }
 }
 
 void add_limits(PackageText& package, const BoardLimits& limits) {
