@@ -144,6 +144,10 @@ void add_parallel_blocks(PackageText& package) {
     package.add("sample_place_stages", SamplePlace::kStages);
     package.add("waiting_bits", WaitingSample::kBits);
     package.add("waiting_samples", kWaitingSamples);
+    const ParallelFifos fifos;
+    for (const FifoState* fifo : fifos.fifos()) {
+        package.add_fifo("parallel_" + fifo->name(), fifo->depth(), fifo->width_bits());
+    }
 }
 
 void add_limits(PackageText& package, const BoardLimits& limits) {
