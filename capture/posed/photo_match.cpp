@@ -40,27 +40,6 @@ std::size_t common_parts(const std::vector<std::string>& a, const std::vector<st
     return count;
 }
 
-// Image files of a folder and its subfolders, relative to it, in natural order.
-Result<std::vector<std::string>> list_photos(const fs::path& folder) {
-    std::vector<std::string> names;
-    std::error_code failure;
-    std::size_t files = 0;
-    for (fs::recursive_directory_iterator entry(folder, failure), end; !failure && entry != end;
-         entry.increment(failure)) {
-        if (++files > kMaxFiles)
-            return Error{folder.string() + ": holds too many files; give the folder of the photos"};
-        if (entry->path().filename().string().starts_with('.')) {
-            if (entry->is_directory(failure)) entry.disable_recursion_pending();
-        } else if (is_image_name(entry->path()) && entry->is_regular_file(failure)) {
-            names.push_back(entry->path().lexically_relative(folder).generic_string());
-        }
-    }
-    if (failure) return Error{folder.string() + ": cannot be listed (" + failure.message() + "); give a folder"};
-    if (names.empty()) return Error{folder.string() + ": holds no image files; give the folder of the photos"};
-    std::ranges::sort(names, natural_less);
-    return names;
-}
-
 // Index of photos by the last part of their names.
 class PhotoIndex {
 public:
@@ -122,6 +101,26 @@ Result<PosedPhoto> sized_photo(const fs::path& file, std::string name, PosedCame
 }
 
 }  // namespace
+
+Result<std::vector<std::string>> list_photos(const fs::path& folder) {
+    std::vector<std::string> names;
+    std::error_code failure;
+    std::size_t files = 0;
+    for (fs::recursive_directory_iterator entry(folder, failure), end; !failure && entry != end;
+         entry.increment(failure)) {
+        if (++files > kMaxFiles)
+            return Error{folder.string() + ": holds too many files; give the folder of the photos"};
+        if (entry->path().filename().string().starts_with('.')) {
+            if (entry->is_directory(failure)) entry.disable_recursion_pending();
+        } else if (is_image_name(entry->path()) && entry->is_regular_file(failure)) {
+            names.push_back(entry->path().lexically_relative(folder).generic_string());
+        }
+    }
+    if (failure) return Error{folder.string() + ": cannot be listed (" + failure.message() + "); give a folder"};
+    if (names.empty()) return Error{folder.string() + ": holds no image files; give the folder of the photos"};
+    std::ranges::sort(names, natural_less);
+    return names;
+}
 
 Result<PhotoMatches> match_photos(const fs::path& photos, const PosedModel& model) {
     RS_ASSIGN_OR_RETURN(const std::vector<std::string> names, list_photos(photos));

@@ -29,6 +29,10 @@ struct PhotoMatches {
     std::vector<std::string> without_photo;   ///< photos of the model that are not in the folder
 };
 
+/// Image files of a folder and its subfolders, relative to it, in natural order; hidden ones are skipped. Errors: a
+/// folder that cannot be listed, or holds no image files or more than 100,000 files.
+Result<std::vector<std::string>> list_photos(const std::filesystem::path& photos);
+
 /// Compares names without extension and letter case, by the longest common end of their paths. Reads the headers of
 /// the photos. `photos` is searched with its subfolders. Errors: a folder that cannot be listed or holds no image
 /// files; no match; a name that fits several photos equally; a photo with two cameras; a photo whose size differs from

@@ -326,6 +326,22 @@ Result<PosedImportReport> import_posed_checked(const PosedImportOptions& options
 
 }  // namespace
 
+Status check_segmenters(const PosedImportOptions& options, Progress* progress) {
+    PosedModel sizes;  // cameras without a size take that of their photo
+    sizes.where = options.photos.string();
+    RS_ASSIGN_OR_RETURN(const std::vector<std::string> names, list_photos(options.photos));
+    for (const std::string& name : names) {
+        sizes.cameras.emplace_back();
+        sizes.cameras.back().photo = name;
+    }
+    RS_ASSIGN_OR_RETURN(const PhotoMatches matches, match_photos(options.photos, sizes));
+    RS_TRY(check_mask_names(matches, options));
+    for (const PhotoGroup& group : grouped_by_size(matches, options)) {
+        RS_TRY(segmenter_of(group, matches, options, progress));
+    }
+    return {};
+}
+
 Result<PosedImportReport> import_posed_photos(const PosedImportOptions& options, Progress* progress) {
     RS_TRY(refuse_overwriting_inputs(options.output, {options.photos, options.cameras, options.segmentation.masks}));
     cv::setNumThreads(1);  // photos are processed in parallel

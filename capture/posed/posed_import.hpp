@@ -57,6 +57,10 @@ struct PosedImportReport {
     std::vector<std::string> notes;  ///< one line each
 };
 
+/// Checks what import_posed_photos() needs of the photos besides their cameras: a segmenter for each. Called before the
+/// cameras are computed, which takes minutes. `options.cameras` is ignored.
+Status check_segmenters(const PosedImportOptions& options, Progress* progress);
+
 /// Imports a folder of photos. Nothing is left at options.output if it fails. Errors: those of the stages; fewer than
 /// three photos with a camera and an object; photos of a moving camera before a structured background without alpha,
 /// masks or a network; cameras that do not look at a common point, or that are inside the object.

@@ -34,6 +34,8 @@
 namespace rs::capture {
 namespace {
 
+constexpr const char* kColmap = "colmap";  // value of --calibration
+
 struct ImportCommandLine {
     ImportOptions import;
     std::vector<std::filesystem::path> photos;
@@ -52,6 +54,8 @@ struct ImportCommandLine {
     PosedCommandLine posed;
     bool json = false;
     bool quiet = false;
+
+    [[nodiscard]] bool uses_colmap() const { return calibration == kColmap; }
 };
 
 const std::map<std::string, CalibrationChoice> kCalibrations{{"auto", CalibrationChoice::kAuto},
@@ -206,18 +210,19 @@ Status check_frames_usage(const ImportCommandLine& given) {
 // Names of the given options that posed photos do not have.
 std::vector<std::string> turn_options(const ImportCommandLine& given) {
     const ImportOptions& import = given.import;
-    const std::pair<const char*, bool> options[] = {{"--calibration", given.calibration != "auto"},
-                                                    {"--board", !given.board.empty()},
-                                                    {"--equal-steps", given.equal_steps},
-                                                    {"--principal-point", given.principal_point},
-                                                    {"--fov", import.fov_deg.has_value()},
-                                                    {"--degrees-per-view", import.degrees_per_view.has_value()},
-                                                    {"--axis-x", import.axis_x_px.has_value()},
-                                                    {"--clockwise", given.clockwise},
-                                                    {"--counter-clockwise", given.counter_clockwise},
-                                                    {"--frames", import.frames.has_value()},
-                                                    {"--report", !given.report.empty()},
-                                                    {"--shadow", given.shadow != "remove"}};
+    const std::pair<const char*, bool> options[] = {
+        {"--calibration", given.calibration != "auto" && !given.uses_colmap()},
+        {"--board", !given.board.empty()},
+        {"--equal-steps", given.equal_steps},
+        {"--principal-point", given.principal_point},
+        {"--fov", import.fov_deg.has_value()},
+        {"--degrees-per-view", import.degrees_per_view.has_value()},
+        {"--axis-x", import.axis_x_px.has_value()},
+        {"--clockwise", given.clockwise},
+        {"--counter-clockwise", given.counter_clockwise},
+        {"--frames", import.frames.has_value()},
+        {"--report", !given.report.empty()},
+        {"--shadow", given.shadow != "remove"}};
     std::vector<std::string> names;
     for (const auto& [name, is_given] : options) {
         if (is_given) names.emplace_back(name);
@@ -283,7 +288,7 @@ Result<bool> has_posed_cameras(const ImportCommandLine& given, ImportOptions& op
 Status import_posed(const ImportCommandLine& given, const ImportOptions& options) {
     if (const auto unused = turn_options(given); !unused.empty()) {
         return Error{listed(unused, unused.size()) + ": only for photos of one turn, not for the posed photos of " +
-                     given.known + "; leave it out"};
+                     (given.uses_colmap() ? std::string("--calibration colmap") : given.known) + "; leave it out"};
     }
     PosedImportOptions posed;
     posed.photos = options.photos;
@@ -292,11 +297,25 @@ Status import_posed(const ImportCommandLine& given, const ImportOptions& options
     posed.segmentation = options.segmentation;
     posed.max_side_px = options.max_side_px;
     posed.force = options.force;
+    if (given.uses_colmap()) return run_colmap_import(std::move(posed), given.posed, given.json, given.quiet);
     return run_posed_import(std::move(posed), given.posed, given.json, given.quiet);
+}
+
+// Rejects what --calibration colmap cannot be combined with.
+Status check_colmap_usage(const ImportCommandLine& given) {
+    if (!given.uses_colmap()) return {};
+    const std::string option = "--calibration colmap: ";
+    if (!given.known.empty()) return Error{option + "computes the cameras; leave out --known or this"};
+    if (given.photos.size() > 1) return Error{option + "give one folder; it may have folders of photos"};
+    if (is_video(given.import.photos)) {
+        return Error{option + "needs photos; extract some frames of the film (ffmpeg -i FILM -r 2 photos/%03d.png)"};
+    }
+    return {};
 }
 
 Status run_import(const ImportCommandLine& given) {
     ImportOptions options = given.import;
+    RS_TRY(check_colmap_usage(given));
     RS_TRY(check_frames_usage(given));
     RS_ASSIGN_OR_RETURN(const BackgroundRequest backdrop, parse_background(given.backdrop));
     options.segmentation.background = backdrop;
@@ -316,7 +335,7 @@ Status run_import(const ImportCommandLine& given) {
         options.segmentation.network.empty() && file != nullptr) {
         options.segmentation.network = file;
     }
-    options.calibration = kCalibrations.at(given.calibration);
+    if (!given.uses_colmap()) options.calibration = kCalibrations.at(given.calibration);
     if (given.clockwise) options.turning = Turning::kClockwise;
     if (given.counter_clockwise) options.turning = Turning::kCounterClockwise;
     const std::vector<std::filesystem::path> inputs{options.photos, options.segmentation.masks,
@@ -326,6 +345,7 @@ Status run_import(const ImportCommandLine& given) {
     }
     options.known.known.equal_steps = given.equal_steps;
     options.known.known.estimate_principal_point = given.principal_point;
+    if (given.uses_colmap()) return import_posed(given, options);
     // Photos with known cameras may be in several folders, which are no turns.
     if (given.known.empty() || given.photos.size() > 1) {
         RS_ASSIGN_OR_RETURN(const std::vector<TurnSource> turns, several_turns(given.photos));
@@ -434,10 +454,10 @@ void add_calibration_options(CLI::App& command, ImportCommandLine& given) {
     command
         .add_option("--calibration", given.calibration,
                     "auto (the most accurate that succeeds), board, tracks, silhouettes or nominal (equal steps, a "
-                    "level camera)")
+                    "level camera); colmap: for a camera that moved around the object, by the installed COLMAP")
         ->check([](const std::string& text) {
-            if (kCalibrations.contains(text)) return std::string();
-            std::vector<std::string> names;
+            if (kCalibrations.contains(text) || text == kColmap) return std::string();
+            std::vector<std::string> names{kColmap};
             for (const auto& [name, choice] : kCalibrations) names.push_back(name);
             return "'" + text + "' is not one of " + listed(names, names.size()) +
                    (text == "given" ? "; give known values by --known" : "");
@@ -509,7 +529,8 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
   rs-capture import photos/ -o shoe.set --report shoe.html
   rs-capture import photos/ -o shoe.set --segmentation-model isnet.onnx
   rs-capture import photos/ -o shoe.set --masks masks/
-  rs-capture import images/ -o toy.set --known sparse/0       photos taken by hand (docs/posed.md)
+  rs-capture import images/ -o toy.set --calibration colmap --masks masks/   by hand (docs/posed.md)
+  rs-capture import images/ -o toy.set --known sparse/0       photos with known cameras
   rs-capture import low/ middle/ high/ -o toy.set             turns at several heights (docs/turns.md)
   rs-capture import turn.mp4 -o shoe.set        a video of one turn or more (docs/film.md))");
     command->callback([given, &run] {

@@ -1,7 +1,9 @@
 #include "capture/tools/posed_options.hpp"
 
+#include "capture/posed/colmap_reconstruction.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
+#include "rayspace/file/file_output.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -44,6 +46,12 @@ void print_posed_summary(const std::string& output, const PosedImportReport& rep
                 report.up.from.c_str(), origin.x, origin.y, origin.z, report.radius, report.height);
 }
 
+void print_notes(const std::vector<std::string>& notes, bool quiet) {
+    for (const std::string& note : notes) {
+        if (!quiet) std::fprintf(stderr, "rs-capture: %s\n", printable(note).c_str());
+    }
+}
+
 }  // namespace
 
 void add_posed_options(CLI::App& command, PosedCommandLine& given) {
@@ -69,15 +77,27 @@ Status run_posed_import(PosedImportOptions options, const PosedCommandLine& give
     ProgressBar bar(quiet);
     RS_ASSIGN_OR_RETURN(const PosedImportReport report, import_posed_photos(options, &bar));
     bar.finish();
-    for (const std::string& note : report.notes) {
-        if (!quiet) std::fprintf(stderr, "rs-capture: %s\n", printable(note).c_str());
-    }
+    print_notes(report.notes, quiet);
     if (json) {
         print_posed_json(options.output.string(), report);
     } else {
         print_posed_summary(options.output.string(), report);
     }
     return {};
+}
+
+Status run_colmap_import(PosedImportOptions options, const PosedCommandLine& given, bool json, bool quiet) {
+    if (given.axes != "auto") {
+        return Error{"--camera-axes: the cameras of COLMAP have OpenCV's axes by definition; leave it out"};
+    }
+    RS_TRY(refuse_overwriting_inputs(options.output, {options.photos, options.segmentation.masks}));
+    ProgressBar bar(quiet);
+    RS_TRY(check_segmenters(options, &bar));
+    RS_ASSIGN_OR_RETURN(const ColmapReconstruction found,
+                        reconstruct_with_colmap({options.photos, options.segmentation.masks}, &bar));
+    print_notes(found.notes, quiet);
+    options.cameras = found.model;
+    return run_posed_import(std::move(options), given, json, quiet);
 }
 
 }  // namespace rs::capture

@@ -25,4 +25,7 @@ void add_posed_options(CLI::App& command, PosedCommandLine& given);
 /// `options` are set from `given`.
 Status run_posed_import(PosedImportOptions options, const PosedCommandLine& given, bool json, bool quiet);
 
+/// The same with cameras that COLMAP computes; `options.cameras` is set.
+Status run_colmap_import(PosedImportOptions options, const PosedCommandLine& given, bool json, bool quiet);
+
 }  // namespace rs::capture

@@ -27,10 +27,12 @@ void print_turns_summary(const std::string& output, const TurnsImportReport& rep
     for (const ImportedTurn& turn : report.turns) {
         const RegisteredTurn& found = turn.registered;
         std::printf(
-            "  %s: %zu views, %.2f degrees above, turned by %.2f degrees, %.2f radii away, focal length %.1f px; "
+            "  %s: %zu views, %.2f degrees above, %s by %.2f degrees, %.2f radii away, focal length %.1f px; "
             "registered by %s",
-            printable(turn.name).c_str(), turn.views, turn.elevation_deg, turn.azimuth_deg, turn.distance,
-            found.turn.model.lens.f_px, to_string(found.method).c_str());
+            printable(turn.name).c_str(), turn.views, turn.elevation_deg,
+            turn.axis_tilt_deg > 0 ? "laid over" : "turned",
+            turn.axis_tilt_deg > 0 ? turn.axis_tilt_deg : turn.azimuth_deg, turn.distance, found.turn.model.lens.f_px,
+            to_string(found.method).c_str());
         if (found.observations > 0) std::printf(", %zu observations of shared points", found.observations);
         std::printf(", %.2f px RMS, silhouettes overlap by %.0f %%\n", found.rms_px, 100 * found.overlap);
     }

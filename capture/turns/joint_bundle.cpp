@@ -146,7 +146,7 @@ private:
         }
         if (t == reference_) {
             problem_.SetParameterBlockConstant(of.placement.data());
-        } else {
+        } else if (bundle_.turns[t].placement.is_upright()) {
             problem_.SetManifold(of.placement.data(), new ceres::SubsetManifold(7, {0, 2, 3, 5}));
         }
     }

@@ -1,7 +1,8 @@
 #pragma once
 /// \file
 /// Bundle adjustment of several turns of one object, over the points that two or more turns share. The calibration of
-/// each turn is a prior with its stated deviations; the placements are free.
+/// each turn is a prior with its stated deviations. The placements are free: those of upright turns about the common
+/// axis, those of other turns in all seven numbers.
 
 #include "capture/calibration/model/calibration.hpp"
 #include "capture/turns/turn_placement.hpp"

@@ -46,8 +46,12 @@ Camera common_camera(const PlacedTurn& turn, std::size_t view) {
     return camera;
 }
 
+double axis_tilt_deg(const TurnPlacement& placement) {
+    return degrees(std::acos(std::clamp(placement.rotation[1].y, -1.0, 1.0)));
+}
+
 double elevation_deg(const PlacedTurn& turn, const glm::dvec3& target) {
-    const glm::dvec3 off = common_camera(turn, 0).centre() - target;
+    const glm::dvec3 off = turn.placement.rotation * (common_camera(turn, 0).centre() - target);
     return degrees(std::atan2(off.y, std::hypot(off.x, off.z)));
 }
 

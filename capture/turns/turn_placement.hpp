@@ -20,6 +20,10 @@ struct TurnPlacement {
     glm::dvec3 offset{0.0};
     double distance = 1;  ///< of the turn's camera from its axis, in common units
 
+    /// True if the turn's axis is that of the common frame: the object stands as in the reference turn. False if it was
+    /// laid down otherwise.
+    [[nodiscard]] bool is_upright() const { return rotation[1].y > 1 - 1e-9; }
+
     [[nodiscard]] glm::dvec3 turn_from_common(const glm::dvec3& p) const { return (rotation * p + offset) / distance; }
     [[nodiscard]] glm::dvec3 common_from_turn(const glm::dvec3& p) const {
         return glm::transpose(rotation) * (p * distance - offset);
@@ -54,7 +58,11 @@ double azimuth_rad(const TurnPlacement& placement);
 /// Pinhole camera of a view in the common frame, without the lens distortion.
 Camera common_camera(const PlacedTurn& turn, std::size_t view);
 
-/// Degrees by which the camera is above (positive) the horizontal plane through `target`, a point of the common frame.
+/// Degrees between the axes of the turn and of the common frame, 0..180.
+double axis_tilt_deg(const TurnPlacement& placement);
+
+/// Degrees by which the camera is above (positive) the plane through `target`, a point of the common frame, that is
+/// perpendicular to the turn's axis.
 double elevation_deg(const PlacedTurn& turn, const glm::dvec3& target);
 
 }  // namespace rs::capture

@@ -3,10 +3,14 @@
 #include "capture/calibration/points/bundle.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numeric>
+#include <random>
 
 namespace rs::capture {
 namespace {
@@ -16,6 +20,9 @@ constexpr std::size_t kMostTracks = 3000;  // more only cost time
 constexpr double kPairRatio = 0.85;        // Lowe's ratio: best distance / second best of another point
 constexpr double kAgreeing = 0.04;         // distance of agreeing points, in object radii
 constexpr double kLeastRadius = 0.25;      // of a point that gives a hypothesis, in object radii
+constexpr double kLeastSide = 0.3;         // of a triangle that gives a hypothesis, in object radii
+constexpr double kMostSideRatio = 1.15;    // of the scales by the sides of a triangle
+constexpr int kTriangles = 50000;          // tried; few of them are similar
 constexpr double kMostScale = 3;           // ratio of the cameras' distances, and its inverse
 
 // Radius about the axis that contains the object in all views.
@@ -65,6 +72,42 @@ TurnPlacement fit_placement(std::span<const glm::dvec3> first, std::span<const g
     double height = 0;
     for (const PointPair& pair : pairs) height += first[pair.first].y - distance * second[pair.second].y;
     return upright_placement(std::arg(first_from_second), distance, height / static_cast<double>(pairs.size()));
+}
+
+// Similarity that maps `first` to `second` in least squares (Umeyama, 1991).
+TurnPlacement fit_similarity(std::span<const glm::dvec3> first, std::span<const glm::dvec3> second,
+                             std::span<const PointPair> pairs) {
+    Eigen::Matrix3Xd from(3, pairs.size()), to(3, pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            from(k, static_cast<Eigen::Index>(i)) = first[pairs[i].first][k];
+            to(k, static_cast<Eigen::Index>(i)) = second[pairs[i].second][k];
+        }
+    }
+    const Eigen::Matrix4d fitted = Eigen::umeyama(from, to);
+    const double scale = fitted.col(0).head<3>().norm();
+    TurnPlacement placement;
+    placement.distance = 1 / scale;
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) placement.rotation[column][row] = fitted(row, column) / scale;
+        placement.offset[column] = fitted(column, 3) / scale;
+    }
+    return placement;
+}
+
+// True if the sides of the triangles of three pairs are proportional and not short.
+bool are_similar(const std::array<PointPair, 3>& pairs, std::span<const glm::dvec3> first,
+                 std::span<const glm::dvec3> second, double radius) {
+    double least = kMostScale, most = 1 / kMostScale;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const PointPair &a = pairs[k], &b = pairs[(k + 1) % 3];
+        const double side = glm::distance(first[a.first], first[b.first]);
+        const double scale = side / std::max(glm::distance(second[a.second], second[b.second]), 1e-9);
+        if (side < kLeastSide * radius) return false;
+        least = std::min(least, scale);
+        most = std::max(most, scale);
+    }
+    return most < kMostSideRatio * least && most < kMostScale && least > 1 / kMostScale;
 }
 
 std::vector<PointPair> agreeing(const TurnPlacement& placement, std::span<const glm::dvec3> first,
@@ -172,6 +215,35 @@ std::optional<PointRegistration> register_points(std::span<const glm::dvec3> fir
         best = agreeing(registration.placement, first_points, second_points, pairs, limit);
     }
     if (best.size() < kFewestPairs) return std::nullopt;
+    registration.pairs = std::move(best);
+    return registration;
+}
+
+std::optional<PointRegistration> register_reoriented_points(std::span<const glm::dvec3> first_points,
+                                                            std::span<const glm::dvec3> second_points,
+                                                            std::span<const PointPair> pairs) {
+    if (pairs.size() < kFewestReorientedPairs) return std::nullopt;
+    const double radius = object_radius(first_points);
+    const double limit = kAgreeing * radius;
+    std::mt19937 random(1);
+    std::vector<PointPair> best;
+    for (int i = 0; i < kTriangles; ++i) {
+        const std::array<PointPair, 3> triangle{pairs[random() % pairs.size()], pairs[random() % pairs.size()],
+                                                pairs[random() % pairs.size()]};
+        if (!are_similar(triangle, first_points, second_points, radius)) continue;
+        const TurnPlacement placement = fit_similarity(first_points, second_points, triangle);
+        std::vector<PointPair> found = agreeing(placement, first_points, second_points, pairs, limit);
+        if (found.size() > best.size()) best = std::move(found);
+    }
+    PointRegistration registration;
+    constexpr int kRounds = 5;
+    for (int round = 0; round < kRounds && best.size() >= kFewestReorientedPairs; ++round) {
+        registration.placement = fit_similarity(first_points, second_points, best);
+        best = agreeing(registration.placement, first_points, second_points, pairs, limit);
+    }
+    if (best.size() < kFewestReorientedPairs || axis_tilt_deg(registration.placement) < kLeastAxisTilt_deg) {
+        return std::nullopt;
+    }
     registration.pairs = std::move(best);
     return registration;
 }

@@ -47,10 +47,19 @@ std::optional<PointRegistration> register_points(std::span<const glm::dvec3> fir
                                                  std::span<const glm::dvec3> second_points,
                                                  std::span<const PointPair> pairs);
 
+/// Placement of a turn for which the object was laid down otherwise: the similarity with the most agreeing pairs, by
+/// RANSAC over three pairs. Nothing if fewer than kFewestReorientedPairs agree, or if its axis is within
+/// kLeastAxisTilt_deg of the common one.
+std::optional<PointRegistration> register_reoriented_points(std::span<const glm::dvec3> first_points,
+                                                            std::span<const glm::dvec3> second_points,
+                                                            std::span<const PointPair> pairs);
+
 /// Pairs whose points, both in the common frame, are near each other.
 std::vector<PointPair> pairs_near(std::span<const glm::dvec3> first_points, std::span<const glm::dvec3> second_points,
                                   std::span<const PointPair> pairs);
 
 inline constexpr std::size_t kFewestPairs = 12;
+inline constexpr std::size_t kFewestReorientedPairs = 16;  ///< more numbers are free
+inline constexpr double kLeastAxisTilt_deg = 5;
 
 }  // namespace rs::capture

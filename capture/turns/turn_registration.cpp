@@ -43,15 +43,15 @@ public:
         : turns_(turns), progress_(progress), points_(turns.size()), found_(turns.size()) {}
 
     Result<std::vector<RegisteredTurn>> run() {
-        if (progress_ != nullptr)
-            progress_->start("registering the turns", static_cast<std::int64_t>(turns_.size()) + 1);
+        start_progress();
         RS_TRY(find_points());
-        RS_TRY(choose_reference());
-        while (placed_.size() < turns_.size()) {
-            if (!place_by_points()) {
-                RS_TRY(place_by_silhouettes());
-            }
-            if (progress_ != nullptr) progress_->advance();
+        RS_ASSIGN_OR_RETURN(const std::size_t reference, choose_reference());
+        RS_TRY(place_all(reference));
+        // The first turn's axis is the common one. A turn that is not upright has points, so that it may be the
+        // reference.
+        if (!found_.front().turn.placement.is_upright()) {
+            start_progress();
+            RS_TRY(place_all(0));
         }
         RS_TRY(refine());
         RS_TRY(check_overlaps());
@@ -60,6 +60,11 @@ public:
     }
 
 private:
+    void start_progress() {
+        if (progress_ == nullptr) return;
+        progress_->start("registering the turns", static_cast<std::int64_t>(turns_.size()) + 1);
+    }
+
     [[nodiscard]] bool is_placed(std::size_t t) const { return std::ranges::find(placed_, t) != placed_.end(); }
 
     // Points of the turns whose calibration is accurate enough for guided matching.
@@ -73,7 +78,7 @@ private:
     }
 
     // The reference: the calibrated turn with the most points; of those without, the first.
-    Status choose_reference() {
+    [[nodiscard]] Result<std::size_t> choose_reference() const {
         std::optional<std::size_t> best;
         for (std::size_t t = 0; t < turns_.size(); ++t) {
             if (!turns_[t].calibration) continue;
@@ -84,8 +89,19 @@ private:
                          ": no turn can be calibrated alone; take one with more photos (36) at a low height, give "
                          "--fov, or an object with more texture"};
         }
-        found_[*best].turn.model = turns_[*best].calibration->model;
-        placed_.push_back(*best);
+        return *best;
+    }
+
+    Status place_all(std::size_t reference) {
+        found_.assign(turns_.size(), {});
+        found_[reference].turn.model = turns_[reference].calibration->model;
+        placed_ = {reference};
+        while (placed_.size() < turns_.size()) {
+            if (!place_by_points()) {
+                RS_TRY(place_by_silhouettes());
+            }
+            if (progress_ != nullptr) progress_->advance();
+        }
         return {};
     }
 
@@ -96,7 +112,7 @@ private:
         for (std::size_t t = 0; t < turns_.size(); ++t) {
             if (is_placed(t) || points_[t].points.empty()) continue;
             for (const std::size_t reference : placed_) {
-                auto found = register_points(common_points(reference), points_[t].points, pairs_of(reference, t));
+                auto found = register_pair(reference, t);
                 if (!found || (best && found->pairs.size() <= best->pairs.size())) continue;
                 best = std::move(found);
                 to = t;
@@ -108,6 +124,17 @@ private:
         found_[to].pairs = best->pairs.size();
         placed_.push_back(to);
         return true;
+    }
+
+    // As upright, unless far more pairs agree with another orientation of the object: near a wrong axis some agree,
+    // too.
+    std::optional<PointRegistration> register_pair(std::size_t reference, std::size_t t) {
+        const std::vector<glm::dvec3> common = common_points(reference);
+        const std::vector<PointPair>& pairs = pairs_of(reference, t);
+        auto upright = register_points(common, points_[t].points, pairs);
+        auto reoriented = register_reoriented_points(common, points_[t].points, pairs);
+        if (!reoriented || (upright && 2 * upright->pairs.size() > reoriented->pairs.size())) return upright;
+        return reoriented;
     }
 
     const std::vector<PointPair>& pairs_of(std::size_t first, std::size_t second) {
@@ -199,7 +226,8 @@ private:
     [[nodiscard]] static Error no_placement(const std::string& name, double overlap) {
         return Error{name + ": its silhouettes do not fit the other turns at any azimuth and height (" +
                      format_fixed(100 * overlap, 0) +
-                     " % overlap); check that it is of the same object, standing as in the other turns"};
+                     " % overlap); check that it is of the same object, standing as in the other turns; only an object "
+                     "with texture may be laid down otherwise"};
     }
 
     // Tracks of the points that turns share, by the pairs that agree with the placements.

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Registration of several turns of one object in a common frame: by points of the object that turns share
-/// (turn_points.hpp), else by silhouettes (hull_search.hpp); then all turns together (joint_bundle.hpp,
-/// joint_silhouettes.hpp).
+/// Registration of several turns of one object in a common frame, whose Y is the axis of the first turn: by points of
+/// the object that turns share (turn_points.hpp), in any orientation of the object; else by silhouettes
+/// (hull_search.hpp); then all turns together (joint_bundle.hpp, joint_silhouettes.hpp).
 
 #include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/points/tracks.hpp"
@@ -39,8 +39,8 @@ struct RegisteredTurn {
 };
 
 /// At least one turn must be calibrated; it is the reference. Errors, by name of the turn: no placement fits (another
-/// object, or another pose on the table); an object whose silhouettes look the same from all sides and that shares no
-/// points.
+/// object, or laid down otherwise and too little texture); an object whose silhouettes look the same from all sides and
+/// that shares no points.
 Result<std::vector<RegisteredTurn>> register_turns(std::span<const TurnToRegister> turns, Progress* progress);
 
 }  // namespace rs::capture

@@ -235,6 +235,7 @@ TurnsImportReport report_on(const std::vector<WorkingTurn>& turns, const std::ve
         if (is_calibrated(turns[t])) turn.calibration = turns[t].rig.calibration.calibration->method;
         const PlacedTurn& placed = registered[t].turn;
         turn.elevation_deg = elevation_deg(placed, object.centre);
+        turn.axis_tilt_deg = placed.placement.is_upright() ? 0 : axis_tilt_deg(placed.placement);
         turn.azimuth_deg = degrees(std::remainder(azimuth_rad(placed.placement) - first_rad, 2 * kPi));
         turn.distance = glm::length(common_camera(placed, 0).centre() - object.centre) / object.radius;
         report.turns.push_back(std::move(turn));
@@ -313,7 +314,8 @@ nlohmann::json turn_json(const ImportedTurn& turn) {
     json["calibration"] = turn.calibration == CalibrationMethod::kNominal ? "joint" : to_string(turn.calibration);
     json["registration"] = to_string(found.method);
     json["elevation_deg"] = turn.elevation_deg;
-    json["azimuth_deg"] = turn.azimuth_deg;
+    json["axis_tilt_deg"] = turn.axis_tilt_deg;
+    json["azimuth_deg"] = turn.axis_tilt_deg > 0 ? nlohmann::json() : nlohmann::json(turn.azimuth_deg);
     json["distance"] = turn.distance;
     json["f_px"] = lens.f_px;
     json["k1"] = lens.k1;

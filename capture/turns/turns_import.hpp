@@ -40,8 +40,9 @@ struct ImportedTurn {
     RegisteredTurn registered;
     CalibrationMethod calibration = CalibrationMethod::kNominal;  ///< of the turn alone; nominal: none
     double elevation_deg = 0;                                     ///< of its camera above the object's middle
-    double azimuth_deg = 0;  ///< rotation of the object on the table relative to the first turn
-    double distance = 0;     ///< of its camera from the object's middle, object radii
+    double axis_tilt_deg = 0;  ///< between the axes of this turn and the first; 0: the object stands upright in both
+    double azimuth_deg = 0;    ///< rotation of the object on the table relative to the first turn, if it stands upright
+    double distance = 0;       ///< of its camera from the object's middle, object radii
 };
 
 /// The turn as in photo_import of the set and in the JSON summary.

@@ -1,14 +1,10 @@
 #include "compositor/sequence/converter.hpp"
 
 #include "rayspace/base/printable.hpp"
+#include "rayspace/file/child_process.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <utility>
 
 namespace rs::compositor {
@@ -22,29 +18,6 @@ bool replace_all(std::string& word, const std::string& what, const std::string& 
         found = true;
     }
     return found;
-}
-
-// Returns the exit status, or -1 with errno.
-int run_command(const std::vector<std::string>& words) {
-    std::vector<char*> arguments;
-    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-    pid_t child = 0;
-    const int failure = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (failure != 0) {
-        errno = failure;
-        return -1;
-    }
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0) {
-        if (errno != EINTR) return -1;
-    }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 }  // namespace
@@ -88,13 +61,13 @@ Result<ConvertedScene> convert_scene(const std::string& command, const std::file
     RS_ASSIGN_OR_RETURN(StagedFolder folder, StagedFolder::create(place, "converted files"));
     std::filesystem::path out = folder.temporary_path() / "scene";
     RS_ASSIGN_OR_RETURN(const auto words, parse_converter_command(command, in, out));
-    const int status = run_command(words);
+    const Result<int> status = run_program(words);
     const std::string name = printable(words.front());
-    if (status < 0) {
-        return Error{"--convert: " + name + " cannot be run (" + std::strerror(errno) + "); correct the command"};
+    if (!status) {
+        return Error{"--convert: " + name + " cannot be run (" + status.error().message + "); correct the command"};
     }
-    if (status != 0) {
-        return Error{printable(in.string()) + ": the converter " + name + " ended with " + std::to_string(status) +
+    if (*status != 0) {
+        return Error{printable(in.string()) + ": the converter " + name + " ended with " + std::to_string(*status) +
                      "; see its output above"};
     }
     std::error_code error;

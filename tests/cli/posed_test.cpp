@@ -110,6 +110,29 @@ TEST_F(PosedTool, OptionsOfATurnAreRefused) {
     EXPECT_THAT(run.err, HasSubstr("--up"));
 }
 
+TEST_F(PosedTool, ColmapRefusesWhatItCannotUse) {
+    const auto refused = [&](std::vector<std::string> more, const std::string& part) {
+        more.insert(more.begin(), {"--calibration", "colmap"});
+        expect_refused(more, part);
+    };
+    refused({"--known", in("sparse/0")}, "leave out --known");
+    refused({"--fov", "30"}, "--fov: only for photos of one turn, not for the posed photos of --calibration colmap");
+    refused({"--camera-axes", "opencv"}, "--camera-axes");
+    refused({in("images")}, "give one folder");
+    fs::create_directories(folder_ / "painted");  // no alpha, another background in each photo
+    for (int i = 0; i < 4; ++i) {
+        Image<Rgba8> photo(120, 90);
+        for (int k = 0; k < 120 * 90; ++k) {
+            const auto code = static_cast<std::uint8_t>((k * (i + 3) * 37) % 251);
+            photo(k % 120, k / 120) = {code, static_cast<std::uint8_t>(code / (i + 1)), 90, 255};
+        }
+        ASSERT_TRUE(write_png(folder_ / "painted" / (std::to_string(i) + ".png"), photo).ok());
+    }
+    const test::ToolRun run = capture_tool({"import", in("painted"), "-o", in("set"), "-q", "--calibration", "colmap"});
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_THAT(run.err, HasSubstr("--masks")) << "before COLMAP runs";
+}
+
 TEST_F(PosedTool, UpIsAsGiven) {
     const test::ToolRun run = import({"--known", in("sparse/0"), "--up", "0,0,-1", "--json"});
     ASSERT_EQ(run.exit_code, 0) << run.err;

@@ -30,5 +30,17 @@ TEST(TurnPlacement, AimIsTheInverseOfItsPlacement) {
     EXPECT_NEAR(found.shift, aim.shift, 1e-12);
 }
 
+TEST(TurnPlacement, ElevationIsAboutTheOwnAxisOfALyingTurn) {
+    PlacedTurn turn = test::two_turns()[1];
+    const double upright_deg = elevation_deg(turn, {0, 0, 0});
+    EXPECT_TRUE(turn.placement.is_upright());
+    EXPECT_NEAR(axis_tilt_deg(turn.placement), 0, 1e-5);
+    const glm::dmat3 quarter(glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1));
+    turn.placement.rotation = turn.placement.rotation * quarter;  // about the origin of the common frame
+    EXPECT_FALSE(turn.placement.is_upright());
+    EXPECT_NEAR(axis_tilt_deg(turn.placement), 90, 1e-9);
+    EXPECT_NEAR(elevation_deg(turn, {0, 0, 0}), upright_deg, 1e-9);
+}
+
 }  // namespace
 }  // namespace rs::capture
