@@ -5,6 +5,7 @@
 #include "capture/photos/segmentation/foreground_image.hpp"
 #include "capture/photos/segmentation/segment_turn.hpp"
 #include "capture/posed/cameras/camera_file.hpp"
+#include "capture/posed/consistent_segmenter.hpp"
 #include "capture/posed/photo_match.hpp"
 #include "capture/posed/posed_set.hpp"
 #include "capture/posed/visual_hull.hpp"
@@ -17,6 +18,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <map>
 #include <set>
@@ -35,6 +37,13 @@ constexpr std::size_t kFewestPosed = 3;
 struct PhotoGroup {
     PhotoFolder folder;
     std::vector<std::size_t> photos;  // [photo of the folder]: index in PhotoMatches::photos
+};
+
+// Input of all stages.
+struct ImportContext {
+    const PosedImportOptions& options;
+    bool has_uncertain_axes = false;
+    Progress* progress = nullptr;
 };
 
 std::vector<PhotoGroup> grouped_by_size(const PhotoMatches& matches, const PosedImportOptions& options) {
@@ -100,6 +109,20 @@ Status check_mask_names(const PhotoMatches& matches, const PosedImportOptions& o
     return {};
 }
 
+Error unknown_background(const PosedImportOptions& options) {
+    return Error{options.photos.string() +
+                 ": the background differs from photo to photo, and the views do not agree about the object; give "
+                 "--segmentation-model FILE.onnx, --masks, or photos with alpha"};
+}
+
+// True if the photos have neither alpha nor masks, and nothing else states what the object is.
+bool has_photos_alone(const SegmenterRequest& request) {
+    const bool is_open = request.kind == SegmenterKind::kAuto || request.kind == SegmenterKind::kBackground;
+    return is_open && request.masks.empty() && request.network.empty() && !request.background.kind &&
+           request.shadow == ShadowHandling::kRemove;
+}
+
+// The segmenter is null if no background model fits a moving camera, and all views must find the object.
 Result<ChosenSegmenter> segmenter_of(const PhotoGroup& group, const PhotoMatches& matches,
                                      const PosedImportOptions& options, Progress* progress) {
     SegmenterRequest request = options.segmentation;
@@ -108,14 +131,15 @@ Result<ChosenSegmenter> segmenter_of(const PhotoGroup& group, const PhotoMatches
     Intake intake;
     intake.folder = group.folder;
     RS_ASSIGN_OR_RETURN(intake.survey, survey_photos(intake.folder, progress));
-    RS_ASSIGN_OR_RETURN(ChosenSegmenter chosen, choose_segmenter(request, intake, options.photos.string(), progress));
-    if (chosen.kind == SegmenterKind::kBackground && chosen.background == BackgroundKind::kColour &&
-        request.background.kind != BackgroundKind::kColour) {
-        return Error{options.photos.string() +
-                     ": the background differs from photo to photo, as it does where the camera moves; give "
-                     "--segmentation-model FILE.onnx, --masks, or photos with alpha"};
-    }
-    return chosen;
+    Result<ChosenSegmenter> chosen = choose_segmenter(request, intake, options.photos.string(), progress);
+    const bool is_colour = chosen && chosen->kind == SegmenterKind::kBackground &&
+                           chosen->background == BackgroundKind::kColour &&
+                           request.background.kind != BackgroundKind::kColour;
+    if (chosen && !is_colour) return chosen;
+    if (!has_photos_alone(request)) return chosen ? unknown_background(options) : chosen.error();
+    ChosenSegmenter none;
+    none.kind = SegmenterKind::kBackground;
+    return none;
 }
 
 // Lens of a photo in the working size of its folder.
@@ -139,27 +163,6 @@ Result<PosedImage> import_photo(const PhotoGroup& group, std::size_t i, const Po
     RS_ASSIGN_OR_RETURN(const Segmentation segmentation, segmenter.segment({i, photo.view()}));
     return write_posed_image(posed, make_foreground_image(photo, segmentation, parameters),
                              group.folder.photos[i].string(), file);
-}
-
-Result<std::vector<PosedImage>> import_groups(const PhotoMatches& matches, const PosedImportOptions& options,
-                                              const fs::path& set, PosedImportReport& report, Progress* progress) {
-    std::vector<PosedImage> imported(matches.photos.size());
-    for (const PhotoGroup& group : grouped_by_size(matches, options)) {
-        report.sizes.push_back(size_text(group.folder.shown_width, group.folder.shown_height));
-        RS_ASSIGN_OR_RETURN(const ChosenSegmenter chosen, segmenter_of(group, matches, options, progress));
-        report.segmenter = chosen.kind;
-        report.notes.insert(report.notes.end(), chosen.notes.begin(), chosen.notes.end());
-        const auto work = [&](std::size_t i) -> Status {
-            const std::size_t view = group.photos[i];
-            const PosedCamera posed = in_working_size(matches.photos[view].camera, group.folder);
-            RS_ASSIGN_OR_RETURN(imported[view],
-                                import_photo(group, i, posed, *chosen.segmenter,
-                                             options.segmentation.parameters.foreground, set / set_image_name(view)));
-            return {};
-        };
-        RS_TRY(for_each_photo(group.folder, kSegmentBytesPerPixel, "segmenting", progress, work));
-    }
-    return imported;
 }
 
 Camera with_opencv_axes(Camera camera) {
@@ -196,6 +199,71 @@ Result<glm::dvec3> find_target(std::vector<HullView>& views, bool is_uncertain, 
     return Error{where + std::to_string(views.size() - in_front) + " of " + std::to_string(views.size()) +
                  " cameras look away from the object; the poses must be camera-to-world, " +
                  (is_uncertain ? "give --camera-axes opengl or opencv, " : "") + "or take these photos out"};
+}
+
+// Replaces background models by segmenters that use all views.
+Status segment_by_all_views(const std::vector<PhotoGroup>& groups, std::vector<ChosenSegmenter>& chosen,
+                            const PhotoMatches& matches, const ImportContext& context, PosedImportReport& report) {
+    std::vector<PhotosToSegment> photos;
+    std::vector<ChosenSegmenter*> replaced;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        if (chosen[g].kind != SegmenterKind::kBackground) continue;
+        PhotosToSegment& of_group = photos.emplace_back();
+        of_group.folder = &groups[g].folder;
+        of_group.initial = chosen[g].segmenter;
+        for (const std::size_t i : groups[g].photos) {
+            of_group.cameras.push_back(in_working_size(matches.photos[i].camera, groups[g].folder));
+        }
+        replaced.push_back(&chosen[g]);
+    }
+    if (photos.empty() || context.options.segmentation.shadow == ShadowHandling::kKeep) return {};
+    PosedImportReport ignored;
+    const auto target = [&](std::vector<HullView>& views) {
+        return find_target(views, context.has_uncertain_axes, context.options, ignored);
+    };
+    Result<ConsistentSegmenters> found = make_consistent_segmenters(photos, target, context.progress);
+    if (!found) {
+        const auto has_initial = [](const PhotosToSegment& each) { return each.initial != nullptr; };
+        if (!std::ranges::all_of(photos, has_initial)) return unknown_background(context.options);
+        report.notes.push_back(context.options.photos.string() + ": " + found.error().message +
+                               "; each mask is that of the background model alone. Give --masks if they are wrong");
+        return {};
+    }
+    if (found->changed > 0.01) {
+        report.notes.push_back(
+            "masks are consistent across the views: " + std::to_string(std::lround(100 * found->changed)) +
+            " % of their pixels were changed by the other photos");
+    }
+    for (std::size_t g = 0; g < replaced.size(); ++g) replaced[g]->segmenter = found->segmenters[g];
+    return {};
+}
+
+Result<std::vector<PosedImage>> import_groups(const PhotoMatches& matches, const ImportContext& context,
+                                              const fs::path& set, PosedImportReport& report) {
+    const PosedImportOptions& options = context.options;
+    const std::vector<PhotoGroup> groups = grouped_by_size(matches, options);
+    std::vector<ChosenSegmenter> chosen;
+    for (const PhotoGroup& group : groups) {
+        RS_ASSIGN_OR_RETURN(chosen.emplace_back(), segmenter_of(group, matches, options, context.progress));
+    }
+    RS_TRY(segment_by_all_views(groups, chosen, matches, context, report));
+    std::vector<PosedImage> imported(matches.photos.size());
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const PhotoGroup& group = groups[g];
+        report.sizes.push_back(size_text(group.folder.shown_width, group.folder.shown_height));
+        report.segmenter = chosen[g].kind;
+        report.notes.insert(report.notes.end(), chosen[g].notes.begin(), chosen[g].notes.end());
+        const auto work = [&](std::size_t i) -> Status {
+            const std::size_t view = group.photos[i];
+            const PosedCamera posed = in_working_size(matches.photos[view].camera, group.folder);
+            RS_ASSIGN_OR_RETURN(imported[view],
+                                import_photo(group, i, posed, *chosen[g].segmenter,
+                                             options.segmentation.parameters.foreground, set / set_image_name(view)));
+            return {};
+        };
+        RS_TRY(for_each_photo(group.folder, kSegmentBytesPerPixel, "segmenting", context.progress, work));
+    }
+    return imported;
 }
 
 Rig rig_of(const PhotoMatches& matches, const std::vector<std::size_t>& kept, std::span<const Camera> cameras,
@@ -252,9 +320,9 @@ Status find_object(std::vector<HullView>& views, bool has_uncertain_axes, const 
     if (!object->cameras_inside.empty()) {
         std::vector<std::string> inside;
         for (const std::size_t i : object->cameras_inside) inside.push_back(names[i]);
-        return Error{
-            printable(where + listed(inside, 3) + (inside.size() > 1 ? " are" : " is") +
-                      " inside the object's bounding cylinder; check masks and poses, or take the photos out")};
+        return Error{printable(
+            where + listed(inside, 3) + (inside.size() > 1 ? " are" : " is") +
+            " inside the object's bounding cylinder; check poses and masks (--masks), or take the photos out")};
     }
     note_beyond_hull(object->beyond_hull, names, report);
     report.origin = object->centre;
@@ -291,7 +359,8 @@ Result<PosedImportReport> import_posed_checked(const PosedImportOptions& options
     report.notes = model.notes;
     report.without_camera = std::move(matches.without_camera);
     report.without_photo = std::move(matches.without_photo);
-    RS_ASSIGN_OR_RETURN(std::vector<PosedImage> imported, import_groups(matches, options, set, report, progress));
+    const ImportContext context{options, model.has_uncertain_axes, progress};
+    RS_ASSIGN_OR_RETURN(std::vector<PosedImage> imported, import_groups(matches, context, set, report));
     std::vector<std::size_t> kept;
     std::vector<HullView> hulls;
     std::vector<std::string> names;

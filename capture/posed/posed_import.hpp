@@ -5,7 +5,8 @@
 ///   read_camera_file()         cameras                              cameras/camera_file.hpp
 ///   match_photos()             photos of the cameras                photo_match.hpp
 ///   choose_segmenter()         one segmenter per size of photos     photos/segmentation/segmenter_choice.hpp
-///   undistorted()              foreground images of pinhole cameras  undistortion.hpp
+///   make_consistent_segmenters()  instead of background models      consistent_segmenter.hpp
+///   undistorted()              foreground images of pinhole cameras undistortion.hpp
 ///   common_target(), find_up(), carve_bounding_cylinder()           up_axis.hpp, visual_hull.hpp
 ///
 /// The set has Y up, its origin at the middle of the object's bounding cylinder and an object_radius of 1; the first
@@ -62,8 +63,9 @@ struct PosedImportReport {
 Status check_segmenters(const PosedImportOptions& options, Progress* progress);
 
 /// Imports a folder of photos. Nothing is left at options.output if it fails. Errors: those of the stages; fewer than
-/// three photos with a camera and an object; photos of a moving camera before a structured background without alpha,
-/// masks or a network; cameras that do not look at a common point, or that are inside the object.
+/// three photos with a camera and an object; photos without alpha, masks or a network whose views do not agree about
+/// the object before a structured background; cameras that do not look at a common point, or that are inside the
+/// object.
 Result<PosedImportReport> import_posed_photos(const PosedImportOptions& options, Progress* progress);
 
 }  // namespace rs::capture

@@ -20,20 +20,9 @@ namespace {
 HullView hull_view_of(const Image<Rgba8>& image, const Camera& camera) {
     cv::Mat1b alpha, reduced;
     cv::extractChannel(mat_view(image.view()), alpha, 3);
-    const double scale = std::min(1.0, static_cast<double>(kHullMask_px) / std::max(image.width(), image.height()));
-    const cv::Size size(std::max(1, static_cast<int>(std::lround(image.width() * scale))),
-                        std::max(1, static_cast<int>(std::lround(image.height() * scale))));
-    cv::resize(alpha, reduced, size, 0, 0, cv::INTER_AREA);
-    HullView view{camera, {}};
+    HullView view{hull_camera(camera), {}};
+    cv::resize(alpha, reduced, {view.camera.width, view.camera.height}, 0, 0, cv::INTER_AREA);
     cv::threshold(reduced, view.mask, 127, 255, cv::THRESH_BINARY);
-    const double by_x = static_cast<double>(size.width) / image.width();
-    const double by_y = static_cast<double>(size.height) / image.height();
-    view.camera.fl_x *= by_x;
-    view.camera.cx *= by_x;
-    view.camera.fl_y *= by_y;
-    view.camera.cy *= by_y;
-    view.camera.width = size.width;
-    view.camera.height = size.height;
     return view;
 }
 

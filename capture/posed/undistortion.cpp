@@ -5,6 +5,7 @@
 #include "rayspace/image/premultiplied_sampling.hpp"
 
 #include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -50,9 +51,25 @@ double valid_radius(const LensDistortion& lens) {
     return most;
 }
 
+// Points of the photo, with the centre of the first pixel as origin, at focal length 1 without distortion.
+// `accuracy_px`: of the iteration.
+std::vector<cv::Point2d> undistorted_points(const PosedCamera& photo, const std::vector<cv::Point2d>& positions,
+                                            double accuracy_px) {
+    std::vector<cv::Point2d> points;
+    const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, accuracy_px);
+    const cv::Matx33d matrix = matrix_of(photo.camera);
+    const cv::Mat1d coefficients = coefficients_of(photo.distortion);
+    if (photo.distortion.model == LensDistortion::Model::kFisheye) {
+        cv::fisheye::undistortPoints(positions, points, matrix, coefficients);
+    } else {
+        cv::undistortPoints(positions, points, matrix, coefficients, cv::noArray(), cv::noArray(), until);
+    }
+    return points;
+}
+
 // Points of the border of a box in the photo, at focal length 1, without distortion.
 std::vector<cv::Point2d> undistorted_border(const PosedCamera& photo, const TurnSilhouette::Box& box) {
-    std::vector<cv::Point2d> border, points;
+    std::vector<cv::Point2d> border;
     for (int i = 0; i < kPointsPerSide; ++i) {
         const double t = static_cast<double>(i) / (kPointsPerSide - 1);
         // Pixel positions with the centre of the first pixel as origin.
@@ -60,15 +77,7 @@ std::vector<cv::Point2d> undistorted_border(const PosedCamera& photo, const Turn
         const double y = box.top + t * (box.bottom - box.top) - 0.5, top = box.top - 0.5, bottom = box.bottom - 0.5;
         border.insert(border.end(), {{x, top}, {x, bottom}, {left, y}, {right, y}});
     }
-    const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-9);
-    const cv::Matx33d matrix = matrix_of(photo.camera);
-    const cv::Mat1d coefficients = coefficients_of(photo.distortion);
-    if (photo.distortion.model == LensDistortion::Model::kFisheye) {
-        cv::fisheye::undistortPoints(border, points, matrix, coefficients);
-    } else {
-        cv::undistortPoints(border, points, matrix, coefficients, cv::noArray(), cv::noArray(), until);
-    }
-    return points;
+    return undistorted_points(photo, border, 1e-9);
 }
 
 }  // namespace
@@ -127,6 +136,27 @@ Image<Rgba8> undistorted(const PosedCamera& photo, const Camera& target, Image<R
     }
     bleed_colours(result);
     return result;
+}
+
+cv::Mat1b distorted_mask(const PosedCamera& photo, const Camera& target, const cv::Mat1b& mask) {
+    const cv::Size size(photo.camera.width, photo.camera.height);
+    cv::Mat2f at(size);
+    const double radius = valid_radius(photo.distortion);
+    std::vector<cv::Point2d> positions(static_cast<std::size_t>(size.width));
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) positions[static_cast<std::size_t>(x)] = cv::Point2d(x, y);
+        const std::vector<cv::Point2d> points = undistorted_points(photo, positions, 0.02);
+        for (int x = 0; x < size.width; ++x) {
+            const cv::Point2d& p = points[static_cast<std::size_t>(x)];
+            const bool is_valid = std::hypot(p.x, p.y) < radius;
+            const double u = target.cx + target.fl_x * p.x - 0.5, v = target.cy + target.fl_y * p.y - 0.5;
+            at(y, x) = is_valid ? cv::Vec2f(static_cast<float>(u), static_cast<float>(v)) : cv::Vec2f(-9, -9);
+        }
+    }
+    cv::Mat1b resampled;
+    cv::remap(mask, resampled, at, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_CONSTANT, 0);
+    cv::threshold(resampled, resampled, 127, 255, cv::THRESH_BINARY);
+    return resampled;
 }
 
 }  // namespace rs::capture

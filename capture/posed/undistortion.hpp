@@ -8,6 +8,8 @@
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 
+#include <opencv2/core.hpp>
+
 namespace rs::capture {
 
 /// The pinhole camera of an undistorted photo. It has the photo's frame, extended by whole pixels to contain `visible`,
@@ -21,5 +23,9 @@ Result<Camera> undistorted_camera(const PosedCamera& photo, const TurnSilhouette
 /// undistorted_camera(). Transparent outside of the photo. Colours are extended under alpha 0 by bleed_colours().
 /// Without distortion `foreground` itself. Thread-safe.
 Image<Rgba8> undistorted(const PosedCamera& photo, const Camera& target, Image<Rgba8> foreground);
+
+/// The opposite: resamples a mask of the pinhole camera `target`, and of its size, for the photo. 0
+/// outside of the mask's frame. Thread-safe.
+cv::Mat1b distorted_mask(const PosedCamera& photo, const Camera& target, const cv::Mat1b& mask);
 
 }  // namespace rs::capture

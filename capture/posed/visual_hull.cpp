@@ -13,10 +13,6 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kVoxelsPerSide = 64;
-constexpr double kToleratedViews = 0.05;  // that see background
-constexpr double kMinViews = 1.0 / 3;     // that have a voxel in their frame
-
 // Axis-aligned box in a frame whose Y is up.
 struct HullBox {
     glm::dvec3 low{0}, high{0};
@@ -53,9 +49,9 @@ double first_extent(std::span<const HullView> views, const glm::dvec3& target) {
     return 1.2 * *high;
 }
 
-bool is_in_hull(std::span<const HullView> views, const glm::dvec3& p) {
+bool is_in_hull(std::span<const HullView> views, const glm::dvec3& p, const HullCarving& carving) {
     int seen = 0, background = 0;
-    const double most = kToleratedViews * static_cast<double>(views.size());
+    const double most = carving.tolerated_views * static_cast<double>(views.size());
     for (const HullView& view : views) {
         if (background > most) return false;
         const glm::dvec3 at = view.camera.project(p);
@@ -63,18 +59,26 @@ bool is_in_hull(std::span<const HullView> views, const glm::dvec3& p) {
         ++seen;
         background += view.mask(static_cast<int>(at.y), static_cast<int>(at.x)) == 0 ? 1 : 0;
     }
-    return seen >= kMinViews * static_cast<double>(views.size()) && background <= kToleratedViews * seen;
+    return seen >= carving.min_views * static_cast<double>(views.size()) &&
+           background <= carving.tolerated_views * seen;
+}
+
+// Sides of a voxel.
+glm::dvec3 step_of(const HullBox& box, const HullCarving& carving) {
+    return (box.high - box.low) / static_cast<double>(carving.voxels_per_side);
 }
 
 // Centres of the voxels of a box that are in the hull. `world_from_frame` rotates.
-std::vector<glm::dvec3> carve(std::span<const HullView> views, const glm::dmat3& world_from_frame, const HullBox& box) {
-    std::vector<std::vector<glm::dvec3>> slices(kVoxelsPerSide);
-    const glm::dvec3 step = (box.high - box.low) / static_cast<double>(kVoxelsPerSide);
-    for_each_index(kVoxelsPerSide, 0, [&](std::int64_t k) {
-        for (int j = 0; j < kVoxelsPerSide; ++j) {
-            for (int i = 0; i < kVoxelsPerSide; ++i) {
+std::vector<glm::dvec3> carve(std::span<const HullView> views, const glm::dmat3& world_from_frame, const HullBox& box,
+                              const HullCarving& carving) {
+    const int side = carving.voxels_per_side;
+    std::vector<std::vector<glm::dvec3>> slices(static_cast<std::size_t>(side));
+    const glm::dvec3 step = step_of(box, carving);
+    for_each_index(side, 0, [&](std::int64_t k) {
+        for (int j = 0; j < side; ++j) {
+            for (int i = 0; i < side; ++i) {
                 const glm::dvec3 p = box.low + step * (glm::dvec3(i, j, static_cast<double>(k)) + 0.5);
-                if (is_in_hull(views, world_from_frame * p)) slices[static_cast<std::size_t>(k)].push_back(p);
+                if (is_in_hull(views, world_from_frame * p, carving)) slices[static_cast<std::size_t>(k)].push_back(p);
             }
         }
     });
@@ -84,8 +88,7 @@ std::vector<glm::dvec3> carve(std::span<const HullView> views, const glm::dmat3&
 }
 
 // Bounds of the kept voxels with a margin of one voxel.
-HullBox bounds_of(const std::vector<glm::dvec3>& kept, const HullBox& box) {
-    const glm::dvec3 step = (box.high - box.low) / static_cast<double>(kVoxelsPerSide);
+HullBox bounds_of(const std::vector<glm::dvec3>& kept, const glm::dvec3& step) {
     HullBox bounds{glm::dvec3(std::numeric_limits<double>::max()), glm::dvec3(std::numeric_limits<double>::lowest())};
     for (const glm::dvec3& p : kept) {
         bounds.low = glm::min(bounds.low, p - 1.5 * step);
@@ -135,24 +138,41 @@ double share_beyond(const HullView& view, const std::vector<glm::dvec3>& kept, c
 
 // Voxels in the frame; `middle` is the target there.
 Result<VisualHull> carve_in_frame(std::span<const HullView> views, const glm::dvec3& middle,
-                                  const glm::dmat3& frame_from_world) {
+                                  const glm::dmat3& frame_from_world, const HullCarving& last) {
     const double extent = first_extent(views, glm::transpose(frame_from_world) * middle);
     HullBox box{middle - extent, middle + extent};
     std::vector<glm::dvec3> kept;
     constexpr int kPasses = 3;
+    HullCarving carving = last;
+    carving.voxels_per_side = HullCarving{}.voxels_per_side;
     for (int pass = 0; pass < kPasses; ++pass) {
-        if (pass > 0) box = bounds_of(kept, box);
-        kept = carve(views, glm::transpose(frame_from_world), box);
+        if (pass > 0) box = bounds_of(kept, step_of(box, carving));
+        if (pass == kPasses - 1) carving = last;
+        kept = carve(views, glm::transpose(frame_from_world), box, carving);
         if (kept.empty()) {
             return Error{
                 "the masks have no common volume: cameras and photos do not belong together, or the masks are wrong; "
                 "check some masks, and that the poses are camera-to-world"};
         }
     }
-    return VisualHull{std::move(kept), (box.high - box.low) / static_cast<double>(kVoxelsPerSide)};
+    return VisualHull{std::move(kept), step_of(box, last)};
 }
 
 }  // namespace
+
+Camera hull_camera(Camera camera) {
+    const double scale = std::min(1.0, static_cast<double>(kHullMask_px) / std::max(camera.width, camera.height));
+    const int width = std::max(1, static_cast<int>(std::lround(camera.width * scale)));
+    const int height = std::max(1, static_cast<int>(std::lround(camera.height * scale)));
+    const double by_x = static_cast<double>(width) / camera.width, by_y = static_cast<double>(height) / camera.height;
+    camera.fl_x *= by_x;
+    camera.cx *= by_x;
+    camera.fl_y *= by_y;
+    camera.cy *= by_y;
+    camera.width = width;
+    camera.height = height;
+    return camera;
+}
 
 Result<glm::dvec3> common_target(std::span<const HullView> views) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
@@ -179,9 +199,10 @@ std::size_t count_in_front(std::span<const HullView> views, const glm::dvec3& po
         std::ranges::count_if(views, [&](const HullView& view) { return view.camera.project(point).z > 0; }));
 }
 
-Result<VisualHull> carve_visual_hull(std::span<const HullView> views, const glm::dvec3& target, const glm::dvec3& up) {
+Result<VisualHull> carve_visual_hull(std::span<const HullView> views, const glm::dvec3& target, const glm::dvec3& up,
+                                     const HullCarving& carving) {
     const glm::dmat3 frame_from_world = upright_axes(up);
-    RS_ASSIGN_OR_RETURN(VisualHull hull, carve_in_frame(views, frame_from_world * target, frame_from_world));
+    RS_ASSIGN_OR_RETURN(VisualHull hull, carve_in_frame(views, frame_from_world * target, frame_from_world, carving));
     for (glm::dvec3& p : hull.voxels) p = glm::transpose(frame_from_world) * p;
     return hull;
 }
@@ -190,7 +211,7 @@ Result<BoundingCylinder> carve_bounding_cylinder(std::span<const HullView> views
                                                  const glm::dvec3& up) {
     const glm::dmat3 frame_from_world = upright_axes(up);
     const glm::dmat3 world_from_frame = glm::transpose(frame_from_world);
-    RS_ASSIGN_OR_RETURN(const VisualHull hull, carve_in_frame(views, frame_from_world * target, frame_from_world));
+    RS_ASSIGN_OR_RETURN(const VisualHull hull, carve_in_frame(views, frame_from_world * target, frame_from_world, {}));
     const std::vector<glm::dvec3>& kept = hull.voxels;
     const glm::dvec3& step = hull.step;
     BoundingCylinder cylinder = cylinder_of(kept, step);

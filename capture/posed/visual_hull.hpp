@@ -24,6 +24,9 @@ struct HullView {
 /// Longer side of a mask for carving, at most.
 inline constexpr int kHullMask_px = 512;
 
+/// The camera of an image that is reduced to at most kHullMask_px.
+Camera hull_camera(Camera camera);
+
 /// Point nearest to all rays through the middles of the masks, in least squares. Error: all rays are parallel.
 Result<glm::dvec3> common_target(std::span<const HullView> views);
 
@@ -36,8 +39,16 @@ struct VisualHull {
     glm::dvec3 step{0};              ///< sides of a voxel in a frame whose Y is `up`
 };
 
+/// Parameters of carving.
+struct HullCarving {
+    int voxels_per_side = 64;       ///< of the last pass
+    double tolerated_views = 0.05;  ///< share of the views with a voxel in their frame that may see background there
+    double min_views = 1.0 / 3;     ///< share of all views that must have a voxel in their frame
+};
+
 /// Carves voxels as carve_bounding_cylinder() does. Error: nothing remains.
-Result<VisualHull> carve_visual_hull(std::span<const HullView> views, const glm::dvec3& target, const glm::dvec3& up);
+Result<VisualHull> carve_visual_hull(std::span<const HullView> views, const glm::dvec3& target, const glm::dvec3& up,
+                                     const HullCarving& carving = {});
 
 /// Bounding cylinder about `up`.
 struct BoundingCylinder {

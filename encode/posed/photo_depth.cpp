@@ -19,8 +19,9 @@ constexpr std::uint8_t kUnseen = 255;  // no cost: outside of the neighbour's fr
 // A photo at the working size.
 struct WorkPhoto {
     Camera camera;
-    Image<Rgba8> image;
-    Image<float> luma;  // codes
+    Image<Rgba8> reduced;           // empty if the photo has the working size
+    ConstImageView<Rgba8> image{};  // `reduced`, or the photo's own
+    Image<float> luma;              // codes; 0 where the image is transparent
 };
 
 WorkPhoto make_work_photo(const PosedPhoto& photo, int reduction) {
@@ -32,7 +33,8 @@ WorkPhoto make_work_photo(const PosedPhoto& photo, int reduction) {
     work.camera.fl_y /= reduction;
     work.camera.cx /= reduction;
     work.camera.cy /= reduction;
-    work.image = Image<Rgba8>(work.camera.width, work.camera.height);
+    if (reduction > 1) work.reduced = Image<Rgba8>(work.camera.width, work.camera.height);
+    work.image = reduction > 1 ? work.reduced.view() : photo.image.view();
     work.luma = Image<float>(work.camera.width, work.camera.height);
     for (int y = 0; y < work.camera.height; ++y) {
         for (int x = 0; x < work.camera.width; ++x) {
@@ -46,7 +48,9 @@ WorkPhoto make_work_photo(const PosedPhoto& photo, int reduction) {
             if (sum.w == 0) continue;
             const glm::dvec3 mean = glm::dvec3(sum) / sum.w;
             const auto code = [](double value) { return static_cast<std::uint8_t>(std::lround(value)); };
-            work.image(x, y) = {code(mean.r), code(mean.g), code(mean.b), code(sum.w / (reduction * reduction))};
+            if (reduction > 1) {
+                work.reduced(x, y) = {code(mean.r), code(mean.g), code(mean.b), code(sum.w / (reduction * reduction))};
+            }
             work.luma(x, y) = static_cast<float>(0.3 * mean.r + 0.6 * mean.g + 0.1 * mean.b);
         }
     }
@@ -54,7 +58,7 @@ WorkPhoto make_work_photo(const PosedPhoto& photo, int reduction) {
 }
 
 // Box of the pixels inside of the matte.
-ObjectBox box_of(const Image<Rgba8>& image) {
+ObjectBox box_of(ConstImageView<Rgba8> image) {
     ObjectBox box{image.width(), image.height(), 0, 0};
     for (int y = 0; y < image.height(); ++y) {
         for (int x = 0; x < image.width(); ++x) {
@@ -384,7 +388,10 @@ private:
         view.height = photo.image.height();
         view.columns = Image<Rgba8>(view.height, view.width);
         for (int y = 0; y < view.height; ++y) {
-            for (int x = 0; x < view.width; ++x) view.columns(y, x) = photo.image(x, y);
+            for (int x = 0; x < view.width; ++x) {
+                const Rgba8& p = photo.image(x, y);
+                view.columns(y, x) = p.a != 0 ? p : Rgba8{};
+            }
         }
         return semi_global_levels(view, volume, SmoothnessOptions{.small_step = 2, .large_step = 60});
     }
@@ -394,13 +401,13 @@ private:
     const PhotoDepthOptions& options_;
 };
 
-// Removes depths that fewer than `confirming` neighbours have within `tolerance`.
-Image<float> confirmed(const std::vector<PhotoDepth>& all, std::size_t n, const std::vector<int>& neighbours,
-                       double tolerance, int confirming) {
+// [pixel]: true if fewer than `confirming` neighbours have its depth within `tolerance`.
+std::vector<bool> find_unconfirmed(const std::vector<PhotoDepth>& all, std::size_t n,
+                                   const std::vector<int>& neighbours, double tolerance, int confirming) {
     const PhotoDepth& own = all[n];
-    Image<float> kept(own.depth.width(), own.depth.height(), 0.0F);
-    for (int y = 0; y < kept.height(); ++y) {
-        for (int x = 0; x < kept.width(); ++x) {
+    std::vector<bool> unconfirmed(own.depth.pixels().size());
+    for (int y = 0; y < own.depth.height(); ++y) {
+        for (int x = 0; x < own.depth.width(); ++x) {
             const float depth = own.depth(x, y);
             if (depth <= 0) continue;
             const glm::dvec3 p = own.camera.centre() + static_cast<double>(depth) * own.camera.ray(x + 0.5, y + 0.5);
@@ -414,10 +421,26 @@ Image<float> confirmed(const std::vector<PhotoDepth>& all, std::size_t n, const 
                 const auto there = static_cast<double>(other.depth(static_cast<int>(seen.x), static_cast<int>(seen.y)));
                 if (there > 0 && std::abs(there - seen.z) <= tolerance) ++votes;
             }
-            if (votes >= std::min(confirming, static_cast<int>(neighbours.size()))) kept(x, y) = depth;
+            const auto pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(own.depth.width()) + static_cast<std::size_t>(x);
+            unconfirmed[pixel] = votes < std::min(confirming, static_cast<int>(neighbours.size()));
         }
     }
-    return kept;
+    return unconfirmed;
+}
+
+// Removes depths that too few neighbours confirm.
+void remove_unconfirmed(std::vector<PhotoDepth>& depths, const std::vector<std::vector<int>>& neighbours,
+                        double tolerance, int confirming) {
+    std::vector<std::vector<bool>> unconfirmed(depths.size());
+    for_each_index(depths.size(), [&](std::size_t n) {
+        unconfirmed[n] = find_unconfirmed(depths, n, neighbours[n], tolerance, confirming);
+    });
+    for (std::size_t n = 0; n < depths.size(); ++n) {
+        for (std::size_t i = 0; i < unconfirmed[n].size(); ++i) {
+            if (unconfirmed[n][i]) depths[n].depth.pixels()[i] = 0;
+        }
+    }
 }
 
 }  // namespace
@@ -438,11 +461,8 @@ Result<std::vector<PhotoDepth>> estimate_photo_depths(std::span<const PosedPhoto
         depths[n] = {work[n].camera, search.depth_of(i, neighbours[n])};
         return {};
     }));
-    std::vector<Image<float>> kept(photos.size());
-    for_each_index(photos.size(), [&](std::size_t n) {
-        kept[n] = confirmed(depths, n, neighbours[n], options.agreement * hull.grid().voxel, options.confirming);
-    });
-    for (std::size_t n = 0; n < depths.size(); ++n) depths[n].depth = std::move(kept[n]);
+    work.clear();
+    remove_unconfirmed(depths, neighbours, options.agreement * hull.grid().voxel, options.confirming);
     return depths;
 }
 

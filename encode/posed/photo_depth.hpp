@@ -29,7 +29,8 @@ struct PhotoDepth {
     Image<float> depth;  // axial, in the rig's units; 0 where unknown or not confirmed
 };
 
-/// Estimates the depth of each photo. Memory: 12 bytes per pixel of the working size, and for each thread about 3 bytes
+/// Estimates the depth of each photo. Memory: 8 bytes per pixel of the working size, 4 more if
+/// photos are reduced, and for each thread about 3 bytes
 /// per object pixel and level.
 Result<std::vector<PhotoDepth>> estimate_photo_depths(std::span<const PosedPhoto> photos, const SignedVolume& hull,
                                                       const PhotoDepthOptions& options, Progress* progress = nullptr);

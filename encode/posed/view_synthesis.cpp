@@ -2,6 +2,7 @@
 
 #include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/image/linear_light.hpp"
+#include "rayspace/image/premultiplied_sampling.hpp"
 
 #include <algorithm>
 #include <array>
@@ -55,7 +56,7 @@ ViewSynthesizer::ViewSynthesizer(std::span<const PosedPhoto> photos, const Signe
     sources_.reserve(photos.size());
     if (progress != nullptr) progress->start("visibility", static_cast<std::int64_t>(photos.size()));
     for (const PosedPhoto& photo : photos) {
-        sources_.push_back({photo.camera, PremultipliedImage(photo.image), cast_depth(surface, photo.camera)});
+        sources_.push_back({photo.camera, photo.image.view(), cast_depth(surface, photo.camera)});
         if (progress != nullptr) progress->advance();
     }
     if (progress != nullptr) progress->finish();
@@ -115,7 +116,7 @@ RgbaF ViewSynthesizer::blend(const std::vector<Candidate>& candidates, const Cam
         if (visible <= 0) continue;
         const double facing = glm::dot(normal, glm::normalize(source.camera.centre() - p));
         found[count++] = {by_angle[i].first, visible * (0.02 + smooth_step(0.0, 0.35, facing)),
-                          premultiplied(source.image.sample(seen.x, seen.y))};
+                          premultiplied(sample_premultiplied(source.image, seen.x, seen.y))};
     }
     if (count == 0) return {};
     const std::size_t blended = std::min(count, blended_most);

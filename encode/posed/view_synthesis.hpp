@@ -7,7 +7,6 @@
 #include "encode/set/capture_set.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
-#include "rayspace/image/premultiplied_sampling.hpp"
 
 #include <span>
 #include <vector>
@@ -21,7 +20,7 @@ struct SynthesisOptions {
 
 class ViewSynthesizer {
 public:
-    /// Keeps references to the photos and the surface. Memory: 20 bytes per pixel of the photos.
+    /// Keeps references to the photos and the surface. Memory: 4 bytes per pixel of the photos.
     ViewSynthesizer(std::span<const PosedPhoto> photos, const SignedVolume& surface, const SynthesisOptions& options,
                     Progress* progress = nullptr);
 
@@ -31,7 +30,7 @@ public:
 private:
     struct Source {
         Camera camera;
-        PremultipliedImage image;
+        ConstImageView<Rgba8> image;
         Image<float> depth;  // of the surface, axial
     };
     struct Candidate {

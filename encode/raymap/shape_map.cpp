@@ -18,6 +18,18 @@ std::string lost_parts_text(const CompletedImages& completed, const Rig& rig) {
            "; it is painted from these; correct the masks to use the photos' own pixels";
 }
 
+// Shape maps of views with a known surface. Rings are independent, so that one is in memory at a time.
+Status add_known_shapes(const ShapeMapInput& input, const ShapeOptions& options, RaySpaceObject& object,
+                        Progress* progress, const RingDepthEstimator::PhotoSink& keep) {
+    for (std::size_t r = 0; r < input.rings.size(); ++r) {
+        RingDepthEstimator estimator(input.set, input.rig, input.rings[r], options);
+        RS_TRY(estimator.read_photos(progress, keep));
+        estimator.use_known_depths();
+        object.rings[r].shape = estimator.make_shape({estimator.surfaces()}, object.rings[r].planes);
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<ShapeMapOutput> add_shape_maps(const ShapeMapInput& input, const ShapeOptions& options, RaySpaceObject& object,
@@ -30,18 +42,15 @@ Result<ShapeMapOutput> add_shape_maps(const ShapeMapInput& input, const ShapeOpt
     const auto keep = [&](int v, const Image<Rgba8>& image) {
         if (input.keep_images) object.images[static_cast<std::size_t>(v)] = planar_from_rgba(image);
     };
+    if (!set.synthesized.empty()) {
+        RS_TRY(add_known_shapes(input, options, object, progress, keep));
+        return found;
+    }
     std::vector<RingDepthEstimator> estimators;
     estimators.reserve(rings.size());
     for (const ViewRing& ring : rings) {
         estimators.emplace_back(set, rig, ring, options);
         RS_TRY(estimators.back().read_photos(progress, keep));
-    }
-    if (!set.synthesized.empty()) {
-        for (std::size_t r = 0; r < rings.size(); ++r) {
-            estimators[r].use_known_depths();
-            object.rings[r].shape = estimators[r].make_shape({estimators[r].surfaces()}, object.rings[r].planes);
-        }
-        return found;
     }
     const auto choose_hulls = [&] {
         for (std::size_t r = 0; r < rings.size(); ++r) {

@@ -34,14 +34,14 @@ Rgba8 sample_premultiplied(ConstImageView<Rgba8> image, double x, double y) {
     const double top = std::floor(y - 0.5);
     const auto weight_x = catmull_rom(static_cast<float>(x - 0.5 - left));
     const auto weight_y = catmull_rom(static_cast<float>(y - 0.5 - top));
+    const int column = static_cast<int>(left) - 1, row = static_cast<int>(top) - 1;
+    const int first = std::max(0, -column), behind = std::min(4, image.width() - column);
     RgbaF sum;
-    for (int dy = 0; dy < 4; ++dy) {
-        const int row = static_cast<int>(top) - 1 + dy;
-        if (row < 0 || row >= image.height()) continue;
-        for (int dx = 0; dx < 4; ++dx) {
-            const int column = static_cast<int>(left) - 1 + dx;
-            if (column < 0 || column >= image.width()) continue;
-            const RgbaF p = premultiplied(image(column, row));
+    for (int dy = std::max(0, -row); dy < std::min(4, image.height() - row); ++dy) {
+        for (int dx = first; dx < behind; ++dx) {
+            const Rgba8& code = image(column + dx, row + dy);
+            if (code.a == 0) continue;
+            const RgbaF p = premultiplied(code);
             const float w = weight_x[static_cast<std::size_t>(dx)] * weight_y[static_cast<std::size_t>(dy)];
             sum.r += w * p.r;
             sum.g += w * p.g;

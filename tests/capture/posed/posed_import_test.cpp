@@ -269,6 +269,37 @@ TEST_F(PosedImport, FaultyInputIsRefusedWithTheRemedy) {
     EXPECT_THAT(error(), HasSubstr("2 photos have a camera and show the object; at least 3"));
 }
 
+TEST_F(PosedImport, OpaquePhotosAreSegmentedByAllViews) {
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+        Image<Rgba8> photo = test::posed_photo(cameras_[i]);
+        for (int y = 0; y < photo.height(); ++y) {
+            for (int x = 0; x < photo.width(); ++x) {
+                const bool is_wall = y < 30 + 3 * static_cast<int>(i);
+                const int tone = (is_wall ? 200 : 235) - static_cast<int>(i);
+                photo(x, y) = over(photo(x, y), {static_cast<std::uint8_t>(tone), static_cast<std::uint8_t>(tone - 5),
+                                                 static_cast<std::uint8_t>(tone - 20), 255});
+            }
+        }
+        ASSERT_TRUE(write_png(folder_ / "photos" / cameras_[i].photo, photo).ok());
+    }
+    write_transforms();
+    const auto report = import();
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_EQ(report->views, cameras_.size());
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+        const Image<Rgba8> truth = test::posed_photo(cameras_[i]);
+        const auto image = read_image(
+            folder_ / "set/images" / (i < 10 ? "000" + std::to_string(i) + ".png" : "00" + std::to_string(i) + ".png"));
+        ASSERT_TRUE(image.ok());
+        double object = 0, wrong = 0;
+        for (std::size_t pixel = 0; pixel < truth.pixels().size(); ++pixel) {
+            object += truth.pixels()[pixel].a;
+            wrong += std::abs(truth.pixels()[pixel].a - image->pixels()[pixel].a);
+        }
+        EXPECT_LT(wrong, 0.06 * object) << i;
+    }
+}
+
 TEST_F(PosedImport, OpaquePhotosOfAMovingCameraNeedMasks) {
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
         Image<Rgba8> photo = test::posed_photo(cameras_[i]);

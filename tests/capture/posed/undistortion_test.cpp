@@ -36,6 +36,28 @@ Difference difference(const Image<Rgba8>& a, const Image<Rgba8>& b) {
     return {sum.colour / opaque, sum.alpha / static_cast<double>(a.pixels().size())};
 }
 
+TEST(Undistortion, DistortedMaskIsTheMaskOfThePhoto) {
+    for (const LensDistortion& lens : {LensDistortion{}, LensDistortion{Model::kRadialTangential, {-0.25, 0.08}},
+                                       LensDistortion{Model::kFisheye, {0.05, -0.01, 0.002, -0.001}}}) {
+        PosedCamera posed = test::posed_cameras(5, 320, 240)[3];
+        const Image<Rgba8> pinhole = test::posed_photo(posed);
+        cv::Mat1b mask(240, 320), truth(240, 320);
+        posed.distortion = lens;
+        const Image<Rgba8> photo = test::posed_photo(posed);
+        for (int y = 0; y < 240; ++y) {
+            for (int x = 0; x < 320; ++x) {
+                mask(y, x) = pinhole(x, y).a >= 128 ? 255 : 0;
+                truth(y, x) = photo(x, y).a >= 128 ? 255 : 0;
+            }
+        }
+        const cv::Mat1b distorted = distorted_mask(posed, posed.camera, mask);
+        EXPECT_LT(cv::countNonZero(distorted ^ truth), 0.012 * cv::countNonZero(truth));
+        if (!lens.is_pinhole()) {
+            EXPECT_GT(cv::countNonZero(mask ^ truth), 0.016 * cv::countNonZero(truth));
+        }
+    }
+}
+
 TEST(Undistortion, EqualsThePhotoOfAPinhole) {
     const LensDistortion lenses[] = {{Model::kRadialTangential, {-0.25, 0.08}},
                                      {Model::kRadialTangential, {0.15, -0.02, 0.01, -0.02, 0.01}},
