@@ -73,11 +73,14 @@ function defineHelpers() {
   };
   // Chromium's first reading of a canvas rounds translucent pixels otherwise than later ones.
   window.pixels = ({ canvas }) => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
-  // Renders a view by WebGL once its photos are uploaded. \return name of the renderer that has drawn it
+  // Renders a view by WebGL once its photos are uploaded; an upload for other views may be under way and comes first.
+  // \return name of the renderer that has drawn it
   window.draw = async (renderer, width, height, view) => {
     await renderer.render(width, height, view);
-    await renderer.settled?.();
-    await renderer.render(width, height, view);
+    for (let n = 0; n < 3 && renderer.drawnBy !== "webgl"; ++n) {
+      await renderer.settled?.();
+      await renderer.render(width, height, view);
+    }
     return renderer.drawnBy;
   };
 }

@@ -45,9 +45,7 @@ struct MarchBench {
             }
         }
     }
-    void push(int id, std::int32_t foot_q12, std::int32_t per_d_q20) {
-        put(in, {pixel_of(id), foot_q12, per_d_q20});
-    }
+    void push(int id, std::int32_t foot_q12, std::int32_t per_d_q20) { put(in, {pixel_of(id), foot_q12, per_d_q20}); }
     PixelRegisters r;
     Fifo<ColumnSetup> columns{"columns", 4, 1};
     Fifo<MemoryWord> words{"words", 4, 1};
