@@ -19,7 +19,7 @@ struct MarchBench {
     MarchBench() {
         ShapeRegisters& shape = r.file.objects[static_cast<std::size_t>(r.slot)].shape;
         shape.thickness = 20;
-        // Of a distant reference viewpoint, with depth 0 at the foot: bands are linear in depth.
+        // The reference viewpoint is distant, and depth 0 is at the foot: bands are linear in depth.
         for (std::size_t d = 0; d < shape.effective_depth_q3.size(); ++d)
             shape.effective_depth_q3[d] = static_cast<std::int16_t>(8 * d);
         put(columns, column_of(RayKind::none, 0));
