@@ -97,6 +97,10 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
     RS_CHECK(!set.posed);  // with_rings() comes first
     const std::vector<ViewRing> rings = set.rings.empty() ? find_rings(set.upright) : set.rings;
     RS_TRY(check_options(options.map, rings.size()));
+    if (set.captured.views.size() < 2) {
+        return Error{set.folder.string() +
+                     ": has one frame; an object needs photos from several sides, 24 or more for a whole turn"};
+    }
     RS_TRY(check_irradiance(set));
 
     BuiltObject built;

@@ -69,6 +69,17 @@ TEST(Build, TheFootIsStoredWhereTheRigTellsIt) {
     EXPECT_EQ(foot_of(folder / "silent"), std::nullopt);
 }
 
+TEST(Build, OneFrameIsNoObject) {
+    const test::TemporaryFolder folder;
+    Rig rig = test::drawn_ring(8);
+    rig.views.resize(2);
+    test::write_drawn_set(folder / "two", rig);
+    EXPECT_EQ(error_of_set(folder / "two"), "");
+    rig.views.resize(1);
+    test::write_drawn_set(folder / "one", rig);
+    EXPECT_NE(error_of_set(folder / "one").find("one: has one frame; an object needs"), std::string::npos);
+}
+
 TEST(Build, TheLightOfTheCaptureIsKeptWithTheRig) {
     const test::TemporaryFolder folder;
     Rig rig = test::drawn_ring(8, 20);

@@ -236,16 +236,9 @@ TEST(ShapeMap, AMissingSectorIsSaidAndNotInvented) {
     EXPECT_EQ(shape.object.rings[0].shape.gaps[9].lines, 0);
 }
 
-TEST(ShapeMap, OneAndTwoViews) {
+TEST(ShapeMap, TwoViews) {
     const test::TemporaryFolder folder;
     Rig rig = drawn_ring(36);
-    rig.views.resize(1);
-    test::write_drawn_set(folder / "one", rig);
-    const BuiltObject one = build(folder / "one");
-    EXPECT_THAT(one.warnings, Contains(HasSubstr("one image")));
-    EXPECT_NEAR(psnr_of(one, folder / "one"), psnr_of(build(folder / "one", MapKind::kPlane), folder / "one"), 1e-9);
-
-    rig = drawn_ring(36);
     rig.views.resize(2);
     test::write_drawn_set(folder / "two", rig);
     const BuiltObject two = build(folder / "two");
