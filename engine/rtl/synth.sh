@@ -53,7 +53,7 @@ if [ "${2:-}" = --module ]; then  # called by itself
 fi
 
 # Without memories, and without the modules that only connect others.
-modules=$(find . -name '*.sv' ! -path './memory/*' ! -name board_top.sv ! -name pipe.sv ! -name decompression.sv ! -name record_chain.sv ! -name column_chain.sv ! -name march_pipe.sv \
+modules=$(find . -name '*.sv' ! -path './memory/*' ! -name board_top.sv ! -name pipe.sv ! -name decompression.sv ! -name record_chain.sv ! -name column_chain.sv ! -name march_pipe.sv ! -name parallel_pipe.sv \
   -printf '%f\n' | sed 's/\.sv$//' | sort)
 for module in $modules; do [ -f "$out/$module.row" ] || echo "$module"; done |
   xargs -P "${RAYSPACE_SYNTH_JOBS:-1}" -I{} "$rtl/$(basename "$0")" "$build" --module {}

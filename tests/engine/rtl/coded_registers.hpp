@@ -134,4 +134,22 @@ inline model::CodedPixel random_complete_pixel(const model::RegisterFile& file, 
     return pixel;
 }
 
+// Register look-ups of the chain of a hop of the module `m`, in a member function of a bench.
+#define RS_RTL_LOOK_UP_HOP(hop)                                                                                      \
+    do {                                                                                                             \
+        const model::ObjectRegisters& found = this->object(m.finder_##hop##_view);                                   \
+        m.finder_##hop##_object_tile_columns = static_cast<CData>(found.tile_columns);                               \
+        m.finder_##hop##_object_table_pitch = static_cast<CData>(found.table_pitch);                                 \
+        m.finder_##hop##_object_tile_table = found.tile_table;                                                       \
+        const model::ObjectRegisters& read = this->object(m.reader_##hop##_view);                                    \
+        m.reader_##hop##_object_record_sizes = record_sizes(read.classes[0]);                                        \
+        m.reader_##hop##_object_predicted_sizes = record_sizes(read.classes[1]);                                     \
+        const model::ObjectRegisters& moved = this->object(m.motion_##hop##_view);                                   \
+        m.motion_##hop##_object_classes = class_bytes(moved.classes[0]);                                             \
+        m.motion_##hop##_object_predicted_classes = class_bytes(moved.classes[1]);                                   \
+        m.motion_##hop##_object_coded_width = static_cast<SData>(moved.coded_width);                                 \
+        m.motion_##hop##_object_coded_height = static_cast<SData>(moved.coded_height);                               \
+        m.select_##hop##_object_coded_height = static_cast<SData>(this->object(m.select_##hop##_view).coded_height); \
+    } while (false)
+
 }  // namespace rs::engine::rtl

@@ -11,7 +11,7 @@
 namespace rs::engine::rtl {
 namespace {
 
-// FIFOs and register look-ups of the chain of a hop.
+// Memory FIFOs of the chain of a hop.
 #define RS_RTL_HOP_FIFOS(hop)                                                        \
     this->output(fifos(hop).table_reads, RS_RTL_PORTS(module, table_reads_##hop));   \
     this->input(fifos(hop).table_words, RS_RTL_PORTS(module, table_words_##hop));    \
@@ -19,23 +19,6 @@ namespace {
     this->input(fifos(hop).tile_words, RS_RTL_PORTS(module, tile_words_##hop));      \
     this->output(fifos(hop).record_reads, RS_RTL_PORTS(module, record_reads_##hop)); \
     this->input(fifos(hop).record_words, RS_RTL_PORTS(module, record_words_##hop))
-
-#define RS_RTL_LOOK_UP_HOP(hop)                                                                                      \
-    do {                                                                                                             \
-        const model::ObjectRegisters& found = this->object(m.finder_##hop##_view);                                   \
-        m.finder_##hop##_object_tile_columns = static_cast<CData>(found.tile_columns);                               \
-        m.finder_##hop##_object_table_pitch = static_cast<CData>(found.table_pitch);                                 \
-        m.finder_##hop##_object_tile_table = found.tile_table;                                                       \
-        const model::ObjectRegisters& read = this->object(m.reader_##hop##_view);                                    \
-        m.reader_##hop##_object_record_sizes = record_sizes(read.classes[0]);                                        \
-        m.reader_##hop##_object_predicted_sizes = record_sizes(read.classes[1]);                                     \
-        const model::ObjectRegisters& moved = this->object(m.motion_##hop##_view);                                   \
-        m.motion_##hop##_object_classes = class_bytes(moved.classes[0]);                                             \
-        m.motion_##hop##_object_predicted_classes = class_bytes(moved.classes[1]);                                   \
-        m.motion_##hop##_object_coded_width = static_cast<SData>(moved.coded_width);                                 \
-        m.motion_##hop##_object_coded_height = static_cast<SData>(moved.coded_height);                               \
-        m.select_##hop##_object_coded_height = static_cast<SData>(this->object(m.select_##hop##_view).coded_height); \
-    } while (false)
 
 template <class Module>
 class DecompressionBench final : public LockstepBench<Module> {

@@ -1,8 +1,7 @@
 // Rays of the pixels of a pipe in RTL beside a board of the model that renders views of objects with shape maps:
 // columns, cells, hits, texels and patches must be those of the model in every cycle.
 
-#include "tests/engine/model/parallel_test_objects.hpp"
-#include "tests/engine/rtl/lockstep.hpp"
+#include "tests/engine/rtl/parallel_lockstep.hpp"
 
 #include <Vmarch_pipe_2.h>
 #include <Vmarch_pipe_2_mutants.h>
@@ -13,11 +12,11 @@ namespace {
 constexpr int kPipesOfBoard = 2;  // the module is the first one
 
 template <class Module>
-class MarchPipeBench final : public LockstepBench<Module> {
+class MarchPipeBench final : public ParallelLockstepBench<Module> {
 public:
     MarchPipeBench(Module& module, model::Board& board, Random& random)
-        : LockstepBench<Module>(module, board, random), pipe_(*model::test::pipes(board).front()) {
-        model::ParallelFifos& fifos = pipe_.fifos;
+        : ParallelLockstepBench<Module>(module, board, random) {
+        model::ParallelFifos& fifos = this->pipe_.fifos;
         this->input(fifos.scan_jobs, RS_RTL_PORTS(module, scan_jobs));
         this->input(fifos.rise_columns, RS_RTL_PORTS(module, rise_columns));
         this->input(fifos.march_columns, RS_RTL_PORTS(module, march_columns));
@@ -30,52 +29,12 @@ public:
     }
 
 private:
-    static std::uint64_t bits(std::int64_t value, int width) { return static_cast<std::uint64_t>(value) & mask(width); }
-
-    // Effective depths of all objects, which the host writes before the first view.
-    void drive() override {
-        const auto& objects = this->board_.top().registers.objects;
-        const auto object = static_cast<std::size_t>(written_ / EffectiveDepth::kDepths);
-        const auto depth = static_cast<std::size_t>(written_ % EffectiveDepth::kDepths);
-        Module& m = this->module_;
-        m.effective_depths_valid = object < objects.size() && objects[object].valid;
-        if (m.effective_depths_valid == 0) return;
-        m.effective_depths_data =
-            static_cast<IData>(bits(objects[object].shape.effective_depth_q3[depth], 13) | bits(written_, 13) << 13U);
-    }
+    void drive() override { this->drive_effective_depths(); }
     std::string compare() override {
-        if (this->module_.effective_depths_valid != 0 && this->module_.effective_depths_ready != 0) ++written_;
+        this->count_effective_depths();
         return {};
     }
-    void look_up() override {
-        Module& m = this->module_;
-        const model::BoardView& scan = this->view(m.scan_view);
-        m.scan_view_width = static_cast<SData>(scan.width);
-        m.scan_view_height = static_cast<SData>(scan.height);
-        m.scan_view_s0_q32 = bits(scan.s0_q32, 36);
-        m.scan_view_sy_q32 = bits(scan.sy_q32, 34);
-        const model::ShapeRegisters& rise = this->object(m.rise_view).shape;
-        m.rise_view_b_q20 = static_cast<IData>(bits(this->view(m.rise_view).b_q20, 29));
-        m.rise_shape_h_low_q20 = static_cast<IData>(bits(rise.h_low_q20, 29));
-        m.rise_shape_reference_height_q20 = static_cast<IData>(bits(rise.reference_height_q20, 29));
-        m.rise_shape_bands_per_unit_q12 = static_cast<IData>(rise.bands_per_unit_q12);
-        m.rise_shape_depth_step_q24 = static_cast<IData>(rise.depth_step_q24);
-        const model::ShapeRegisters& loading = this->object(m.loading_view).shape;
-        m.loading_shape_bands = static_cast<SData>(loading.bands);
-        m.loading_shape_jump = static_cast<CData>(loading.jump);
-        const model::ShapeRegisters& march = this->object(m.march_view).shape;
-        m.march_view_object = static_cast<CData>(this->view(m.march_view).object);
-        m.march_shape_bands = static_cast<SData>(march.bands);
-        m.march_shape_jump = static_cast<CData>(march.jump);
-        m.march_shape_thickness = static_cast<CData>(march.thickness);
-        m.march_shape_foot_d_q3 = static_cast<SData>(march.foot_d_q3);
-        const model::RegisterFile& registers = this->board_.top().registers;
-        m.store_view_height = static_cast<SData>(this->view(m.store_view).height);
-        m.store_view_image = registers.image(registers.active, m.store_view);
-    }
-
-    model::ParallelPipe& pipe_;
-    int written_ = 0;  // effective depths, object by object
+    void look_up() override { this->look_up_pixels(); }
 };
 
 // Views of an object without and two with a shape map.
