@@ -2,9 +2,9 @@
 """mutate.py MODULE.sv MODULE.mutants OUTPUT.sv [PART.sv...]: one module with all its mutants.
 
 Each line of the list is an expression that occurs once in the module, " --> ", and its replacement; lines that begin
-with # are comments. An expression that the module lacks is looked for in the parts, modules that it may instantiate;
-the output has those that are mutated, too. It has two more ports: `mutant` selects a mutant (0: none), `mutants` is
-their number.
+with # are comments. A header beside the module that has such an expression is inlined. An expression that the module
+lacks is looked for in the parts, modules that it may instantiate; the output has those that are mutated, too. It has
+two more ports: `mutant` selects a mutant (0: none), `mutants` is their number.
 """
 
 import pathlib
@@ -24,6 +24,15 @@ def read_mutants(path):
         number += 1
         by_original.setdefault(original.strip(), []).append((number, replacement.strip()))
     return by_original, number
+
+
+def with_headers(module, originals):
+    def text_of(include):
+        header = module.parent / include[1]
+        text = header.read_text() if header.exists() else ""
+        return text if any(original in text for original in originals) else include[0]
+
+    return re.sub(r'^`include "(.+)"\n', text_of, module.read_text(), flags=re.MULTILINE)
 
 
 def replaced(text, by_original, selector):
@@ -50,7 +59,7 @@ def with_ports(text, count, where):
 def main():
     module, mutants, output, *parts = map(pathlib.Path, sys.argv[1:])
     by_original, count = read_mutants(mutants)
-    texts = [path.read_text() for path in [module, *parts]]
+    texts = [with_headers(module, by_original), *(path.read_text() for path in parts)]
     in_text = [{} for _ in texts]
     for original, choices in by_original.items():
         occurrences = [text.count(original) for text in texts]
