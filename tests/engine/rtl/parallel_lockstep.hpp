@@ -14,7 +14,7 @@ protected:
     ParallelLockstepBench(Module& module, model::Board& board, Random& random)
         : LockstepBench<Module>(module, board, random), pipe_(*model::test::pipes(board).front()) {}
 
-    // Of the column side.
+    // Column side.
     [[nodiscard]] const model::PlaneView& plane(int view, unsigned number) const {
         return this->view(view).planes[std::min<std::size_t>(number, model::kMaxPlanes - 1)];
     }
@@ -95,7 +95,7 @@ protected:
     void count_effective_depths() {
         if (this->module_.effective_depths_valid != 0 && this->module_.effective_depths_ready != 0) ++written_;
     }
-    // Of the blocks that follow the rays of pixels.
+    // Blocks that follow the rays of pixels.
     void look_up_pixels() {
         Module& m = this->module_;
         const model::BoardView& scan = this->view(m.scan_view);
