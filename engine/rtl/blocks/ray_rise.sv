@@ -129,7 +129,7 @@ module ray_rise (
   ) slope_product (
       .clk(clk), .enable(moves), .a(pixel_1.rise_q24), .b({1'b0, column.inverse_r_q20}), .result(slope_6)
   );
-  // Of the column in the next step.
+  // The column that the next step uses.
   logic [21:0] inverse_rho[2:7];
   multiply_shift #(
       .A_BITS(31),
