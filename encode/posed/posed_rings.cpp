@@ -39,9 +39,12 @@ Result<SignedVolume> reconstruct_surface(std::span<const PosedPhoto> photos, con
 
 std::string summary(std::size_t photos, const RingPlan& plan) {
     const auto whole = [](double degrees) { return std::to_string(std::lround(degrees)); };
-    return "the cameras are not turntable rings: " + std::to_string(plan.rig.views.size()) + " views of " +
-           std::to_string(plan.rings.size()) + " rings, at elevations of " + whole(plan.lowest_deg) + " to " +
-           whole(plan.highest_deg) + " degrees, are synthesized from " + std::to_string(photos) + " photos";
+    const auto synthesized = std::ranges::count(plan.photos, -1);
+    const auto used = static_cast<std::ptrdiff_t>(plan.photos.size()) - synthesized;
+    return "the cameras are not one turn: " + std::to_string(synthesized) + " views, for " +
+           std::to_string(plan.rings.size()) + " rings at elevations of " + whole(plan.lowest_deg) + " to " +
+           whole(plan.highest_deg) + " degrees, are synthesized from " + std::to_string(photos) + " photos" +
+           (used > 0 ? "; " + std::to_string(used) + " photos are used as they are" : "");
 }
 
 }  // namespace
@@ -64,7 +67,13 @@ Result<CaptureSet> with_rings(CaptureSet set, const PosedOptions& options, Progr
     // Views about other axes than Y are posed photos for other programs.
     const bool has_cap = std::ranges::any_of(plan->rings, [](const ViewRing& r) { return !r.rotation.is_identity(); });
     if (!has_cap) set.upright.extras.erase(kPosedKey);
-    set.captured = set.upright;
+    const Rig captured = std::exchange(set.captured, set.upright);
+    for (std::size_t n = 0; n < plan->photos.size(); ++n) {
+        if (plan->photos[n] < 0) continue;
+        set.captured.views[n] = captured.views[static_cast<std::size_t>(plan->photos[n])];
+        set.upright.views[n].file_path = set.captured.views[n].file_path;
+        set.resampled = true;
+    }
     set.rings = std::move(plan->rings);
     set.width = set.upright.views.front().camera.width;
     set.height = set.upright.views.front().camera.height;
@@ -73,6 +82,7 @@ Result<CaptureSet> with_rings(CaptureSet set, const PosedOptions& options, Progr
     const int count = static_cast<int>(set.synthesized.size());
     RS_TRY(for_each_in_parallel(count, "synthesized views", progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
+        if (plan->photos[n] >= 0) return {};
         set.synthesized[n] =
             std::make_shared<const SynthesizedView>(synthesizer.synthesize(set.upright.views[n].camera));
         return {};

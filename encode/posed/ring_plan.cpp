@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +18,10 @@ namespace {
 constexpr double kFrameMargin_px = 3;
 constexpr int kBytesPerPixel = 8;  // colour and depth
 constexpr double kLeastDensity = 0.5;
-constexpr double kOutermost = 0.02;  // share of the photos that are ignored at either end of the elevations
+constexpr double kOutermost = 0.02;    // share of the photos that are ignored at either end of the elevations
+constexpr double kTurnSpread_deg = 1;  // elevations of a turn's photos, from their mean
+constexpr double kNearestTurn_radii = 1.25;
+constexpr double kTurnGap_deg = 12.5;  // largest step of a turn
 constexpr int kLeastViewsOfArc = 3;
 constexpr double kArcMargin_deg = 10;  // rays of viewpoints farther away than the cameras lie beside the arc's views
 
@@ -51,21 +55,78 @@ std::vector<double> evenly(Range range, double step) {
     return values;
 }
 
-// A ring or an arc of cameras, in the ring's axes.
+// A camera in its ring's axes.
+struct PlannedView {
+    double azimuth_rad = 0;
+    double elevation_rad = 0;
+    double distance = 0;  // from the origin, of a photo; 0: as the photos in the middle
+    int photo = -1;       // that is used as it is
+};
+
+// A ring or an arc of cameras.
 struct PlannedRing {
     RingRotation rotation;
     double elevation_rad = 0;
-    std::vector<double> azimuths_rad;
+    std::vector<PlannedView> views;
 };
 
-// Rings about the object's axis.
-void add_rings(Range elevations, const RingPlanOptions& options, std::vector<PlannedRing>& rings) {
-    for (const double elevation : evenly(elevations, radians(options.step_deg))) {
-        const int count = std::max(static_cast<int>(std::ceil(options.views * std::cos(elevation))), 8);
-        PlannedRing ring{{}, elevation, {}};
-        for (int n = 0; n < count; ++n) ring.azimuths_rad.push_back(2 * kPi * n / count);
+// Turns of a turntable: rings of photos, lowest first. The photos of steep ones are synthesized from the same places.
+std::vector<PlannedRing> photographed_rings(std::span<const PosedPhoto> photos, double object_radius,
+                                            const RingPlanOptions& options) {
+    Rig rig;
+    for (const PosedPhoto& photo : photos) rig.views.emplace_back().camera = photo.camera;
+    std::vector<PlannedRing> rings;
+    for (const ViewRing& found : find_rings(rig)) {
+        PlannedRing ring{{}, found.elevation_rad, {}};
+        const bool is_steep = std::abs(found.elevation_rad) > radians(options.steepest_deg);
+        double spread = 0;
+        double nearest = std::numeric_limits<double>::max();  // distance from the axis
+        for (const int i : found.views) {
+            const glm::dvec3 centre = rig.views[static_cast<std::size_t>(i)].camera.centre();
+            const PlannedView view{std::atan2(centre.x, centre.z), elevation_of(centre), glm::length(centre),
+                                   is_steep ? -1 : i};
+            spread = std::max(spread, std::abs(view.elevation_rad - found.elevation_rad));
+            nearest = std::min(nearest, std::hypot(centre.x, centre.z));
+            ring.views.push_back(view);
+        }
+        double gap = 0;
+        for (std::size_t n = 0; n < ring.views.size(); ++n) {
+            const PlannedView& next = ring.views[(n + 1) % ring.views.size()];
+            gap = std::max(gap, std::abs(std::remainder(next.azimuth_rad - ring.views[n].azimuth_rad, 2 * kPi)));
+        }
+        const bool is_turn = spread <= radians(kTurnSpread_deg) && gap <= radians(kTurnGap_deg);
+        const bool is_usable = std::abs(found.elevation_rad) <= radians(options.steepest_turn_deg) &&
+                               nearest >= kNearestTurn_radii * object_radius;
+        if (is_turn && is_usable) rings.push_back(std::move(ring));
+    }
+    return rings;
+}
+
+PlannedRing synthetic_ring(double elevation, int level_views) {
+    const int count = std::max(static_cast<int>(std::ceil(level_views * std::cos(elevation))), 8);
+    PlannedRing ring{{}, elevation, {}};
+    for (int n = 0; n < count; ++n) ring.views.push_back({2 * kPi * n / count, elevation});
+    return ring;
+}
+
+// Rings about the object's axis: those of the photos, and synthetic ones between and beside them.
+void add_rings(Range elevations, std::vector<PlannedRing> photographed, const RingPlanOptions& options,
+               std::vector<PlannedRing>& rings) {
+    const auto fill = [&](double low, double high, bool has_low, bool has_high) {
+        const std::vector<double> between = evenly({low, high}, radians(options.step_deg));
+        for (std::size_t n = has_low ? 1 : 0; n + (has_high ? 1 : 0) < between.size(); ++n) {
+            rings.push_back(synthetic_ring(between[n], options.views));
+        }
+    };
+    double low = elevations.low;
+    bool has_low = false;
+    for (PlannedRing& ring : photographed) {
+        if (ring.elevation_rad > low) fill(low, ring.elevation_rad, has_low, true);
+        low = ring.elevation_rad;
+        has_low = true;
         rings.push_back(std::move(ring));
     }
+    if (!has_low || elevations.high > low) fill(low, elevations.high, has_low, false);
 }
 
 // Arcs about an axis across the object's that show it from the elevation `from_rad` on upwards (side = 1) or downwards
@@ -82,22 +143,22 @@ void add_cap(double from_rad, int side, const RingPlanOptions& options, std::vec
         const int count = 1 + static_cast<int>(std::ceil(reach / kPi * options.views * std::cos(elevation)));
         if (count < kLeastViewsOfArc) continue;
         PlannedRing arc{rotation, elevation, {}};
-        for (int n = 0; n < count; ++n) arc.azimuths_rad.push_back(reach * (2.0 * n / (count - 1) - 1));
+        for (int n = 0; n < count; ++n) arc.views.push_back({reach * (2.0 * n / (count - 1) - 1), elevation});
         rings.push_back(std::move(arc));
     }
 }
 
-// The camera of a ring in the ring's axes, with the principal point at (0, 0).
-Camera upright_camera_at(double azimuth, double elevation, double distance, double px_per_unit) {
-    const glm::dvec3 outwards(std::sin(azimuth), 0, std::cos(azimuth));
+// The camera of a ring in the ring's axes, with the principal point at (0, 0). `distance` is from the ring's axis.
+Camera upright_camera_at(const PlannedView& view, double distance, double px_per_unit) {
+    const glm::dvec3 outwards(std::sin(view.azimuth_rad), 0, std::cos(view.azimuth_rad));
     const glm::dvec3 right(outwards.z, 0, -outwards.x);
     Camera camera;
     camera.world_from_camera =
         glm::dmat4(glm::dvec4(right, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(outwards, 0),
-                   glm::dvec4(distance * outwards + glm::dvec3(0, distance * std::tan(elevation), 0), 1));
+                   glm::dvec4(distance * outwards + glm::dvec3(0, distance * std::tan(view.elevation_rad), 0), 1));
     // Rows and columns are as dense on the object as the photos' pixels.
     camera.fl_x = px_per_unit * distance;
-    camera.fl_y = camera.fl_x * std::cos(elevation);
+    camera.fl_y = camera.fl_x * std::cos(view.elevation_rad);
     return camera;
 }
 
@@ -160,18 +221,24 @@ void add_views(const std::vector<PlannedRing>& planned, const PhotoScale& scale,
                RingPlan& plan) {
     plan.rig.views.clear();
     plan.rings.clear();
+    plan.photos.clear();
     for (const PlannedRing& ring : planned) {
-        const double distance = std::max(scale.distance * std::cos(ring.elevation_rad),
-                                         options.least_distance_radii * plan.rig.object_radius);
         ViewRing views{ring.elevation_rad, {}, ring.rotation};
-        for (const double azimuth : ring.azimuths_rad) {
+        for (const PlannedView& planned_view : ring.views) {
+            const double cosine = std::cos(planned_view.elevation_rad);
+            // A photo that is resampled needs the density of the photo's own focal length.
+            const double px_per_unit = planned_view.photo < 0 ? scale.px_per_unit : scale.px_per_unit / cosine;
+            const double distance =
+                planned_view.distance > 0
+                    ? planned_view.distance * cosine
+                    : std::max(scale.distance * cosine, options.least_distance_radii * plan.rig.object_radius);
             views.views.push_back(static_cast<int>(plan.rig.views.size()));
             char name[32];
             std::snprintf(name, sizeof name, "images/%04d.png", views.views.back());
             RigView& view = plan.rig.views.emplace_back();
             view.file_path = name;
-            view.camera = in_object_axes(upright_camera_at(azimuth, ring.elevation_rad, distance, scale.px_per_unit),
-                                         ring.rotation);
+            plan.photos.push_back(planned_view.photo);
+            view.camera = in_object_axes(upright_camera_at(planned_view, distance, px_per_unit), ring.rotation);
         }
         plan.rings.push_back(std::move(views));
     }
@@ -184,17 +251,23 @@ Result<RingPlan> plan_rings(std::span<const PosedPhoto> photos, const SignedVolu
     const Range photographed = elevation_range(photos);
     const double steepest = radians(options.steepest_deg);
     const double beyond = steepest + radians(options.step_deg) / 2;
-    std::vector<PlannedRing> planned;
-    add_rings(photographed.clamped(steepest), options, planned);
-    if (photographed.high > beyond) add_cap(steepest, 1, options, planned);
-    if (photographed.low < -beyond) add_cap(steepest, -1, options, planned);
-
+    const bool has_upper_cap = photographed.high > beyond;
+    const bool has_lower_cap = photographed.low < -beyond;
     RingPlan plan;
-    plan.lowest_deg = photographed.low < -beyond ? -90 : degrees(photographed.low);
-    plan.highest_deg = photographed.high > beyond ? 90 : degrees(photographed.high);
-    const bool has_cap = !planned.back().rotation.is_identity();
+    plan.lowest_deg = has_lower_cap ? -90 : degrees(photographed.low);
+    plan.highest_deg = has_upper_cap ? 90 : degrees(photographed.high);
     const double half_height = std::max(std::abs(object.low.y), std::abs(object.high.y));
+    const bool has_cap = has_upper_cap || has_lower_cap;
     plan.rig.object_radius = has_cap ? std::hypot(object.radius, half_height) : object.radius;
+
+    std::vector<PlannedRing> turns = photographed_rings(photos, plan.rig.object_radius, options);
+    const double from_above = turns.empty() ? steepest : std::max(steepest, turns.back().elevation_rad);
+    const double from_below = turns.empty() ? steepest : std::max(steepest, -turns.front().elevation_rad);
+    std::vector<PlannedRing> planned;
+    add_rings(photographed.clamped(steepest), std::move(turns), options, planned);
+    if (has_upper_cap) add_cap(from_above, 1, options, planned);
+    if (has_lower_cap) add_cap(from_below, -1, options, planned);
+
     PhotoScale scale = scale_of(photos);
     const double density = scale.px_per_unit;
     for (double part = 1; part >= kLeastDensity; part *= 0.9) {

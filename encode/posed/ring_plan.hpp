@@ -20,6 +20,7 @@ namespace rs::encode {
 struct RingPlanOptions {
     double step_deg = 10;                               // largest distance of two rings
     double steepest_deg = 50;                           // elevation of a ring about the object's axis
+    double steepest_turn_deg = 65;                      // turns up to here keep their photos' cameras
     int views = 48;                                     // of a level ring; they are as dense in the others
     double least_distance_radii = 1.6;                  // from a ring's axis
     std::int64_t memory_bytes = std::int64_t{2} << 30;  // of all views at 8 bytes per pixel
@@ -28,6 +29,7 @@ struct RingPlanOptions {
 struct RingPlan {
     Rig rig;  // views of all rings, in the object's axes, with object_radius
     std::vector<ViewRing> rings;
+    std::vector<int> photos;                 // [view]: the photo from the same centre, -1: none
     double lowest_deg = 0, highest_deg = 0;  // 90: there is a cap
 };
 

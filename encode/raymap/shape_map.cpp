@@ -18,16 +18,8 @@ std::string lost_parts_text(const CompletedImages& completed, const Rig& rig) {
            "; it is painted from these; correct the masks to use the photos' own pixels";
 }
 
-// Shape maps of views with a known surface. Rings are independent, so that one is in memory at a time.
-Status add_known_shapes(const ShapeMapInput& input, const ShapeOptions& options, RaySpaceObject& object,
-                        Progress* progress, const RingDepthEstimator::PhotoSink& keep) {
-    for (std::size_t r = 0; r < input.rings.size(); ++r) {
-        RingDepthEstimator estimator(input.set, input.rig, input.rings[r], options);
-        RS_TRY(estimator.read_photos(progress, keep));
-        estimator.use_known_depths();
-        object.rings[r].shape = estimator.make_shape({estimator.surfaces()}, object.rings[r].planes);
-    }
-    return {};
+bool has_known_surface(const CaptureSet& set, const ViewRing& ring) {
+    return !set.synthesized.empty() && set.synthesized[static_cast<std::size_t>(ring.views.front())] != nullptr;
 }
 
 }  // namespace
@@ -42,22 +34,26 @@ Result<ShapeMapOutput> add_shape_maps(const ShapeMapInput& input, const ShapeOpt
     const auto keep = [&](int v, const Image<Rgba8>& image) {
         if (input.keep_images) object.images[static_cast<std::size_t>(v)] = planar_from_rgba(image);
     };
-    if (!set.synthesized.empty()) {
-        RS_TRY(add_known_shapes(input, options, object, progress, keep));
-        return found;
-    }
+    std::vector<std::size_t> photographed;  // rings
     std::vector<RingDepthEstimator> estimators;
     estimators.reserve(rings.size());
-    for (const ViewRing& ring : rings) {
-        estimators.emplace_back(set, rig, ring, options);
-        RS_TRY(estimators.back().read_photos(progress, keep));
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+        RingDepthEstimator estimator(set, rig, rings[r], options);
+        RS_TRY(estimator.read_photos(progress, keep));
+        if (has_known_surface(set, rings[r])) {
+            estimator.use_known_depths();
+            object.rings[r].shape = estimator.make_shape({estimator.surfaces()}, object.rings[r].planes);
+            continue;
+        }
+        photographed.push_back(r);
+        estimators.push_back(std::move(estimator));
     }
     const auto choose_hulls = [&] {
-        for (std::size_t r = 0; r < rings.size(); ++r) {
+        for (std::size_t i = 0; i < estimators.size(); ++i) {
             std::vector<const RingDepthEstimator*> beside;
-            if (r > 0) beside.push_back(&estimators[r - 1]);
-            if (r + 1 < rings.size()) beside.push_back(&estimators[r + 1]);
-            estimators[r].choose_hull(beside);
+            if (i > 0) beside.push_back(&estimators[i - 1]);
+            if (i + 1 < estimators.size()) beside.push_back(&estimators[i + 1]);
+            estimators[i].choose_hull(beside);
         }
     };
     choose_hulls();
@@ -77,12 +73,13 @@ Result<ShapeMapOutput> add_shape_maps(const ShapeMapInput& input, const ShapeOpt
     for (RingDepthEstimator& estimator : estimators) {
         RS_TRY(estimator.match_colors(progress));
     }
-    for (std::size_t r = 0; r < rings.size(); ++r) {
-        RS_TRY(estimators[r].enforce_consistency(progress, found.samples));
-        Ring& ring = object.rings[r];
-        std::vector<SurfaceLayer> layers = {estimators[r].surfaces()};
-        RingDepthEstimator soft(whole, rig, rings[r], options, Layer::kSoft);
-        if (estimators[r].has_soft_pixels()) {
+    for (std::size_t i = 0; i < estimators.size(); ++i) {
+        RingDepthEstimator& estimator = estimators[i];
+        RS_TRY(estimator.enforce_consistency(progress, found.samples));
+        Ring& ring = object.rings[photographed[i]];
+        std::vector<SurfaceLayer> layers = {estimator.surfaces()};
+        RingDepthEstimator soft(whole, rig, rings[photographed[i]], options, Layer::kSoft);
+        if (estimator.has_soft_pixels()) {
             std::vector<DepthPreview> unused;
             RS_TRY(soft.read_photos(progress, [](int, const Image<Rgba8>&) {}));
             soft.choose_hull({});
@@ -90,8 +87,8 @@ Result<ShapeMapOutput> add_shape_maps(const ShapeMapInput& input, const ShapeOpt
             RS_TRY(soft.enforce_consistency(progress, unused));
             layers.push_back(soft.surfaces());
         }
-        ring.shape = estimators[r].make_shape(layers, ring.planes);
-        estimators[r].append_warnings(ring.shape, found.warnings);
+        ring.shape = estimator.make_shape(layers, ring.planes);
+        estimator.append_warnings(ring.shape, found.warnings);
     }
     found.completed = std::move(whole.completed);
     return found;

@@ -43,7 +43,7 @@ struct CaptureSet {
     bool posed = false;
     int width = 0;  // px, of the upright images
     int height = 0;
-    // Views of a set whose images are not files, one per view of the rig; empty for photographed sets.
+    // One per view of the rig: nullptr if its image is a file; empty for photographed sets.
     std::vector<std::shared_ptr<const SynthesizedView>> synthesized = {};
     CompletedImages completed = {};     // returned by read_upright_image() instead of the file's contents
     std::vector<std::string> warnings;  // of the checks (set_checks.hpp)

@@ -93,7 +93,12 @@ bool is_posed(const Rig& rig) {
         const glm::dvec3 centre = rig.views[static_cast<std::size_t>(view)].camera.centre();
         return std::atan2(centre.y, std::hypot(centre.x, centre.z));
     };
-    return std::ranges::any_of(find_rings(rig), [&](const ViewRing& ring) {
+    const std::vector<ViewRing> rings = find_rings(rig);
+    const auto is_apart = [](const ViewRing& lower, const ViewRing& upper) {
+        return upper.elevation_rad - lower.elevation_rad > radians(kRingStep_deg);
+    };
+    if (std::ranges::adjacent_find(rings, is_apart) != rings.end()) return true;
+    return std::ranges::any_of(rings, [&](const ViewRing& ring) {
         const auto [low, high] = std::ranges::minmax(ring.views, {}, elevation_rad);
         return elevation_rad(high) - elevation_rad(low) > radians(kRingSpread_deg);
     });

@@ -21,8 +21,11 @@ void remove_repeated_frames(Rig& rig, const std::filesystem::path& file, std::ve
 /// Widest range of elevations within a ring of find_rings(), which continues while gaps are small.
 inline constexpr double kRingSpread_deg = 15;
 
-/// True if the cameras are anywhere around the object: if the rig states so by kPosedKey, or has views at so many
-/// elevations that they are not rings.
+/// Rings of photos farther apart need synthesized views between them: mixed, their images would show double contours.
+inline constexpr double kRingStep_deg = 12.5;
+
+/// True if views must be synthesized: if the rig states so by kPosedKey, or has views at so many elevations that they
+/// are not rings, or rings farther apart than kRingStep_deg.
 bool is_posed(const Rig& rig);
 
 /// The checks of posed cameras, whose sizes and elevations may differ.

@@ -85,6 +85,23 @@ double spacing_of(const RaySpaceObject& object, const Ring& ring) {
     return spacing;
 }
 
+// Arcs about other axes continue the rings about the object's axis beyond the outermost ones: the angle by which a
+// viewpoint is nearer to these rings than their spacing beyond them. 0 outside, and without such rings.
+double depth_within_rings(const RaySpaceObject& object, const glm::dvec3& viewpoint) {
+    const Ring* lowest = nullptr;
+    const Ring* highest = nullptr;
+    for (const Ring& ring : object.rings) {
+        if (!ring.rotation.is_identity()) continue;
+        if (lowest == nullptr || ring.elevation_udeg < lowest->elevation_udeg) lowest = &ring;
+        if (highest == nullptr || ring.elevation_udeg > highest->elevation_udeg) highest = &ring;
+    }
+    if (lowest == nullptr) return 0;
+    const double elevation = direction_of(viewpoint).elevation;
+    const double below_top = elevation_of(*highest) + spacing_of(object, *highest) - elevation;
+    const double above_bottom = elevation - elevation_of(*lowest) + spacing_of(object, *lowest);
+    return std::max(std::min(below_top, above_bottom), 0.0);
+}
+
 // Angle from the nearest ring at which it no longer contributes where `second` is the other one; 0: they are not mixed.
 double mixing_range(const RaySpaceObject& object, const Ring& nearest, const Ring& second,
                     const glm::dvec3& viewpoint) {
@@ -99,7 +116,11 @@ double mixing_range(const RaySpaceObject& object, const Ring& nearest, const Rin
 RingChoice choose_rings(const RaySpaceObject& object, const glm::dvec3& viewpoint) {
     if (object.rings.size() == 1) return {};  // traced scenes choose for every ray
     std::vector<double> distances;
-    for (const Ring& ring : object.rings) distances.push_back(distance_to(ring, viewpoint));
+    const double within_rings = depth_within_rings(object, viewpoint);
+    for (const Ring& ring : object.rings) {
+        const double distance = distance_to(ring, viewpoint);
+        distances.push_back(ring.rotation.is_identity() ? distance : std::max(distance, within_rings));
+    }
     const auto nearest = std::min_element(distances.begin(), distances.end());
     RingChoice choice;
     choice.nearest = static_cast<int>(nearest - distances.begin());

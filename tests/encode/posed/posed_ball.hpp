@@ -22,6 +22,14 @@ inline Camera posed_camera(int n, int count, int size_px, double highest_deg = 8
     return look_at_camera(eye, {0, 0, 0}, 0.62, size_px, size_px);
 }
 
+/// Camera n of a level turn of `count`.
+inline Camera turn_camera(int n, int count, double elevation_deg, int size_px) {
+    const double azimuth = 2 * kPi * n / count, elevation = radians(elevation_deg);
+    const glm::dvec3 direction(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                               std::cos(elevation) * std::cos(azimuth));
+    return look_at_camera(3.5 * direction, {0, 0, 0}, 0.62, size_px, size_px);
+}
+
 inline std::vector<PosedPhoto> photos_of_ball(int count, int size_px) {
     std::vector<PosedPhoto> photos;
     for (int n = 0; n < count; ++n) {

@@ -71,6 +71,33 @@ TEST(RingPlan, PhotosOfModerateElevationNeedNoCap) {
     EXPECT_DOUBLE_EQ(plan->rig.object_radius, kBallRadius);
 }
 
+TEST(RingPlan, TurnsKeepTheirCamerasAndRingsFillTheGaps) {
+    std::vector<PosedPhoto> photos;
+    for (const double elevation_deg : {0.0, 25.0, 60.0}) {
+        for (int n = 0; n < 36; ++n) photos.push_back({"", turn_camera(n, 36, elevation_deg, 64), {}});
+    }
+    const Result<RingPlan> plan = plan_rings(photos, kBall, {});
+    ASSERT_TRUE(plan.ok()) << plan.error().message;
+    ASSERT_EQ(plan->photos.size(), plan->rig.views.size());
+    std::vector<int> used(photos.size(), 0);
+    for (std::size_t n = 0; n < plan->photos.size(); ++n) {
+        if (plan->photos[n] < 0) continue;
+        const auto photo = static_cast<std::size_t>(plan->photos[n]);
+        ++used[photo];
+        EXPECT_LT(glm::length(plan->rig.views[n].camera.centre() - photos[photo].camera.centre()), 1e-9);
+    }
+    EXPECT_EQ(std::count(used.begin(), used.begin() + 72, 1), 72);
+    EXPECT_EQ(std::count(used.begin() + 72, used.end(), 0), 36);  // steep photos are resampled by their depth
+    std::vector<double> elevations_deg;
+    for (const ViewRing& ring : plan->rings) {
+        if (ring.rotation.is_identity()) elevations_deg.push_back(degrees(ring.elevation_rad));
+    }
+    EXPECT_THAT(elevations_deg, testing::ElementsAre(testing::DoubleNear(0, 1e-6), testing::DoubleNear(25. / 3, 1e-6),
+                                                     testing::DoubleNear(50. / 3, 1e-6), testing::DoubleNear(25, 1e-6),
+                                                     testing::DoubleNear(33.75, 1e-6), testing::DoubleNear(42.5, 1e-6),
+                                                     testing::DoubleNear(51.25, 1e-6), testing::DoubleNear(60, 1e-6)));
+}
+
 TEST(RingPlan, ViewsThatTakeTooMuchMemoryAreRefused) {
     const std::vector<PosedPhoto> photos = photos_of_ball(20, 100);
     const Result<RingPlan> plan = plan_rings(photos, kBall, {.memory_bytes = 1 << 20});
@@ -86,6 +113,53 @@ TEST(PosedRings, SetsOfRingsAreNotPosed) {
     Rig spread;
     for (int n = 0; n < 60; ++n) spread.views.push_back({"", "", posed_camera(n, 60, 100), {}});
     EXPECT_TRUE(is_posed(spread));
+    for (const double apart_deg : {10, 20}) {
+        Rig turns;
+        for (const double elevation_deg : {5.0, 5 + apart_deg}) {
+            for (int n = 0; n < 12; ++n) turns.views.push_back({"", "", turn_camera(n, 12, elevation_deg, 64), {}});
+        }
+        EXPECT_EQ(is_posed(turns), apart_deg > 15);
+    }
+}
+
+TEST(PosedRings, PhotosOfTurnsAreUsedAsTheyAre) {
+    const test::TemporaryFolder folder;
+    Rig rig;
+    for (const double elevation_deg : {0.0, 25.0}) {
+        for (int n = 0; n < 36; ++n) {
+            RigView view;
+            view.camera = turn_camera(n, 36, elevation_deg, 64);
+            view.file_path = std::to_string(rig.views.size()) + ".png";
+            ASSERT_TRUE(write_png(folder / view.file_path, mottled_ball(view.camera)).ok());
+            rig.views.push_back(std::move(view));
+        }
+    }
+    ASSERT_TRUE(write_rig(folder / kRigFileName, rig).ok());
+    Result<CaptureSet> set = open_capture_set(folder.path());
+    ASSERT_TRUE(set.ok()) << set.error().message;
+    const Result<CaptureSet> rings = with_rings(std::move(*set));
+    ASSERT_TRUE(rings.ok()) << rings.error().message;
+    int used = 0;
+    for (std::size_t n = 0; n < rings->synthesized.size(); ++n) {
+        if (rings->synthesized[n] != nullptr) continue;
+        ++used;
+        const Result<Image<Rgba8>> image = read_upright_image(*rings, static_cast<int>(n));
+        ASSERT_TRUE(image.ok()) << image.error().message;
+        EXPECT_GT(compare_images(mottled_ball(rings->upright.views[n].camera), *image).psnr_db(), 21);
+    }
+    EXPECT_EQ(used, 72);
+    Result<BuiltObject> built = build_object(*rings, {});
+    ASSERT_TRUE(built.ok()) << built.error().message;
+    const auto renderer = engine::Renderer::create(std::move(built->object));
+    ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+    for (const double elevation_deg : {0.0, 12.0, 25.0}) {
+        const Camera between = turn_camera(1, 72, elevation_deg, 64);
+        const Result<engine::MixedView> view = engine::prepare_mixed_view(renderer->object(), between);
+        ASSERT_TRUE(view.ok()) << view.error().message;
+        Image<Rgba8> image(64, 64);
+        renderer->render(*view, image);
+        EXPECT_GT(compare_images(mottled_ball(between), image).psnr_db(), 17) << elevation_deg;
+    }
 }
 
 TEST(PosedRings, HeldOutPhotosAreRenderedByTheEngine) {

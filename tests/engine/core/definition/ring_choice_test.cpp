@@ -87,5 +87,23 @@ TEST(RingChoice, ArcsAreUsedWhereTheirViewsCoverAllRays) {
     EXPECT_EQ(choose_rings(object, from(45)).nearest, 0);
 }
 
+TEST(RingChoice, ArcsTakeOverBeyondTheHighestRing) {
+    RaySpaceObject object;
+    const std::vector<double> azimuths_deg = {-60, -40, -20, 0, 20, 40, 60};
+    object.rings = {ring_at(40), ring_at(50), arc_above(0, azimuths_deg), arc_above(10, azimuths_deg)};
+    // The arcs have views at elevations from 30 degrees on, which are not used between and at the rings.
+    EXPECT_EQ(choose_rings(object, from(50)).second, -1);
+    EXPECT_EQ(choose_rings(object, from(46)).second, 0);
+    EXPECT_EQ(choose_rings(object, from(60)).nearest, 2);
+    EXPECT_EQ(choose_rings(object, from(60)).second, -1);
+    int before = 0;  // weight of the arc
+    for (double elevation = 40; elevation <= 65; elevation += 0.25) {
+        const RingChoice choice = choose_rings(object, from(elevation));
+        const int of_arc = choice.nearest == 2 ? 256 - choice.weight_q8 : choice.second == 2 ? choice.weight_q8 : 0;
+        EXPECT_LE(std::abs(of_arc - before), 7) << elevation;
+        before = of_arc;
+    }
+}
+
 }  // namespace
 }  // namespace rs::engine
