@@ -73,8 +73,7 @@ Result<CaptureSet> with_rings(CaptureSet set, const PosedOptions& options, Progr
     const int count = static_cast<int>(set.synthesized.size());
     RS_TRY(for_each_in_parallel(count, "synthesized views", progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
-        set.synthesized[n] =
-            std::make_shared<const SynthesizedView>(synthesizer.synthesize(set.upright.views[n].camera));
+        set.synthesized[n] = std::make_shared<const PackedView>(synthesizer.synthesize(set.upright.views[n].camera));
         return {};
     }));
     return set;

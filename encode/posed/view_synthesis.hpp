@@ -4,7 +4,7 @@
 
 #include "encode/posed/posed_photo.hpp"
 #include "encode/posed/signed_volume.hpp"
-#include "encode/set/capture_set.hpp"
+#include "encode/set/packed_view.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 

@@ -228,7 +228,7 @@ std::string name_of(const CaptureSet& set) {
 
 Result<Image<Rgba8>> read_upright_image(const CaptureSet& set, int view) {
     if (const auto found = set.completed.find(view); found != set.completed.end()) return Image<Rgba8>(found->second);
-    if (!set.synthesized.empty()) return Image<Rgba8>(set.synthesized[static_cast<std::size_t>(view)]->image);
+    if (!set.synthesized.empty()) return set.synthesized[static_cast<std::size_t>(view)]->image();
     Result<Image<Rgba8>> image = read_captured_image(set, view);
     if (!image || !set.resampled) return image;
     const auto i = static_cast<std::size_t>(view);
