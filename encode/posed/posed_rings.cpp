@@ -2,6 +2,7 @@
 
 #include "encode/posed/depth_fusion.hpp"
 #include "encode/set/set_checks.hpp"
+#include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/rig_conventions.hpp"
 
@@ -15,6 +16,8 @@
 
 namespace rs::encode {
 namespace {
+
+constexpr double kNearPhoto_deg = 2;  // between the directions of a photo and a view that shows it almost unchanged
 
 Result<std::vector<PosedPhoto>> read_photos(const CaptureSet& set, Progress* progress) {
     std::vector<PosedPhoto> photos(set.captured.views.size());
@@ -37,11 +40,26 @@ Result<SignedVolume> reconstruct_surface(std::span<const PosedPhoto> photos, con
     return fuse_depths(hull.volume, depths, progress);
 }
 
-std::string summary(std::size_t photos, const RingPlan& plan) {
+// Share of the views that a photo shows from nearly the same direction.
+double photographed_share(std::span<const PosedPhoto> photos, const RingPlan& plan) {
+    const double least_cosine = std::cos(radians(kNearPhoto_deg));
+    const auto is_near = [&](const RigView& view) {
+        const glm::dvec3 direction = glm::normalize(view.camera.centre());
+        return std::ranges::any_of(photos, [&](const PosedPhoto& photo) {
+            return glm::dot(direction, glm::normalize(photo.camera.centre())) >= least_cosine;
+        });
+    };
+    return static_cast<double>(std::ranges::count_if(plan.rig.views, is_near)) /
+           static_cast<double>(plan.rig.views.size());
+}
+
+std::string summary(std::span<const PosedPhoto> photos, const RingPlan& plan) {
     const auto whole = [](double degrees) { return std::to_string(std::lround(degrees)); };
     return "the cameras are not turntable rings: " + std::to_string(plan.rig.views.size()) + " views of " +
            std::to_string(plan.rings.size()) + " rings, at elevations of " + whole(plan.lowest_deg) + " to " +
-           whole(plan.highest_deg) + " degrees, are synthesized from " + std::to_string(photos) + " photos";
+           whole(plan.highest_deg) + " degrees, are synthesized from " + std::to_string(photos.size()) + " photos; " +
+           whole(100 * photographed_share(photos, plan)) + " % of them are within " + whole(kNearPhoto_deg) +
+           " degrees of a photo";
 }
 
 }  // namespace
@@ -57,7 +75,7 @@ Result<CaptureSet> with_rings(CaptureSet set, const PosedOptions& options, Progr
     Result<RingPlan> plan = plan_rings(*photos, *bounds, options.rings);
     if (!plan) return Error{set.file.string() + ": " + plan.error().message};
 
-    set.warnings.push_back(summary(photos->size(), *plan));
+    set.warnings.push_back(summary(*photos, *plan));
     set.posed = false;
     set.upright.views = std::move(plan->rig.views);
     set.upright.object_radius = plan->rig.object_radius;
