@@ -91,8 +91,8 @@ private:
     VolumeGrid grid_;
     std::vector<float> distances_;
     glm::ivec3 blocks_{0};
-    // Of each block. 0: a voxel of the block or next to it is below kTruncation_voxels; n: blocks less than n away have
-    // a clearance above 0.
+    // [block], in blocks. 0: a voxel of the block or next to it is below kTruncation_voxels; n: blocks less than n away
+    // have a clearance above 0.
     std::vector<std::uint8_t> clearance_;
 };
 
