@@ -33,7 +33,12 @@ class DenseEncoder {
 public:
     DenseEncoder(const RaySpaceObject& object, const std::vector<SourceImage>& sources, const DenseSettings& settings,
                  Progress* progress)
-        : object_(object), sources_(sources), settings_(settings), progress_(progress), work_(object.views.size()) {
+        : object_(object),
+          sources_(sources),
+          settings_(settings),
+          progress_(progress),
+          work_(object.views.size()),
+          errors_(object.views.size()) {
         coded_.width = object.width;
         coded_.height = object.height;
         coded_.dense.alpha_bits = settings.alpha_bits;
@@ -46,12 +51,7 @@ public:
         coded_.levels.assign(object.views.size(), 0);
         coded_.images.resize(object.views.size());
         plan();
-        for_each_index(work_.size(), [&](std::size_t v) {
-            for (auto& plane : work_[v].reconstruction) {
-                plane = Image<std::uint8_t>(coded_.coded_width(), coded_.coded_height());
-            }
-            find_tiles(static_cast<int>(v));
-        });
+        for_each_index(work_.size(), [&](std::size_t v) { find_tiles(static_cast<int>(v)); });
     }
 
     EncodedImages encode() {
@@ -63,16 +63,12 @@ public:
             progress_->start("encoding", count + count / effort.sampled);
         }
         // The first pass measures the probabilities, which are the prices of the second pass, and the global motion.
-        if (effort.sampled > 1) start_with_sources();
         run_pass(effort.first_pass, effort.sampled);
         for (std::size_t v = 0; v < work_.size(); ++v) set_global_motion(v);
         run_pass(effort.unit, 1);
         write_tiles();
         if (progress_ != nullptr) progress_->finish();
-        const double psnr_db = measure_coded_psnr(
-            sources_, object_.width, object_.height, settings_.alpha_bits,
-            [&](std::size_t v) { return codec::plane_views(std::as_const(work_[v].reconstruction)); });
-        return {std::move(coded_), psnr_db};
+        return {std::move(coded_), coded_psnr_db(errors_)};
     }
 
 private:
@@ -153,44 +149,67 @@ private:
         return jobs;
     }
 
-    // Initialises the reference samples with the sources, for a pass that does not code all tiles.
-    void start_with_sources() {
-        for_each_index(work_.size(), [&](std::size_t v) {
-            for (std::size_t p = 0; p < 3; ++p) work_[v].reconstruction[p] = sources_[v].planes[p];
-            for (int y = 0; y < coded_.coded_height(); ++y) {
-                for (int x = 0; x < coded_.coded_width(); ++x) {
-                    work_[v].reconstruction[3](x, y) =
-                        static_cast<std::uint8_t>(codec::alpha_of_level(sources_[v].alpha(x, y), settings_.alpha_bits));
-                }
-            }
-        });
-    }
-
-    // Codes every `sampled`-th tile and updates the probabilities from the decisions.
+    // Codes every `sampled`-th tile and updates the probabilities from the decisions. Images refer to those of their
+    // ring only, so that reconstructions of one ring are in memory at a time.
     void run_pass(const UnitEffort& effort, int sampled) {
         const CostTable costs(coded_.dense.probabilities);
-        for (int level = 0; level < kProgressiveLevels; ++level) {
-            const std::vector<ImageTask> tasks = tasks_of_level(level, effort);
-            if (sampled == 1) clear_absent_tiles(tasks);
-            const std::vector<Job>& jobs = jobs_[static_cast<std::size_t>(level)];
-            const auto step = static_cast<std::size_t>(sampled);
-            for_each_index((jobs.size() + step - 1) / step, [&](std::size_t j) {
-                const auto [v, t] = jobs[j * step];
-                DenseWorkImage& work = work_[v];
-                work.decisions[t].clear();
-                std::array<std::vector<MotionVector>, 2> motions;
-                encode_tile(tasks[v], costs, codec::tile_rect(coded_, t), work.decisions[t], motions);
-                for (std::size_t r = 0; r < 2; ++r) work.motions[r][t] = std::move(motions[r]);
-                if (progress_ != nullptr) progress_->advance();
+        for (const Ring& ring : object_.rings) {
+            for_each_view(ring, [&](std::size_t v) { start_reconstruction(v, sampled > 1); });
+            for (int level = 0; level < kProgressiveLevels; ++level) {
+                const std::vector<ImageTask> tasks = tasks_of_level(ring, level, effort);
+                if (sampled == 1) clear_absent_tiles(tasks);
+                run_jobs(tasks, costs, static_cast<std::size_t>(level), static_cast<std::size_t>(sampled));
+            }
+            for_each_view(ring, [&](std::size_t v) {
+                if (sampled == 1) {
+                    errors_[v] =
+                        measure_coded_error(sources_[v], codec::plane_views(std::as_const(work_[v].reconstruction)),
+                                            object_.width, object_.height, settings_.alpha_bits);
+                }
+                work_[v].reconstruction = {};
             });
         }
         train();
     }
 
-    // One task per view; tasks of other levels stay empty.
-    std::vector<ImageTask> tasks_of_level(int level, const UnitEffort& effort) {
+    template <class Work>
+    static void for_each_view(const Ring& ring, const Work& work) {
+        for_each_index(ring.views.size(), [&](std::size_t n) { work(ring.views[n]); });
+    }
+
+    // Fills it with the source for a pass that does not code all tiles.
+    void start_reconstruction(std::size_t v, bool with_source) {
+        codec::Planes& reconstruction = work_[v].reconstruction;
+        for (auto& plane : reconstruction) plane = Image<std::uint8_t>(coded_.coded_width(), coded_.coded_height());
+        if (!with_source) return;
+        for (std::size_t p = 0; p < 3; ++p) reconstruction[p] = sources_[v].planes[p];
+        std::ranges::transform(sources_[v].alpha.pixels(), reconstruction[3].pixels().begin(), [&](int level) {
+            return static_cast<std::uint8_t>(codec::alpha_of_level(level, settings_.alpha_bits));
+        });
+    }
+
+    // Every `sampled`-th job of a level among those that have a task.
+    void run_jobs(const std::vector<ImageTask>& tasks, const CostTable& costs, std::size_t level, std::size_t sampled) {
+        std::vector<Job> jobs;
+        for (std::size_t j = 0; j < jobs_[level].size(); j += sampled) {
+            if (tasks[jobs_[level][j].view].source != nullptr) jobs.push_back(jobs_[level][j]);
+        }
+        for_each_index(jobs.size(), [&](std::size_t j) {
+            const auto [v, t] = jobs[j];
+            std::vector<Decision>& decisions = work_[v].decisions[t];
+            decisions.clear();
+            std::array<std::vector<MotionVector>, 2> motions;
+            encode_tile(tasks[v], costs, codec::tile_rect(coded_, t), decisions, motions);
+            decisions.shrink_to_fit();
+            for (std::size_t r = 0; r < 2; ++r) work_[v].motions[r][t] = std::move(motions[r]);
+            if (progress_ != nullptr) progress_->advance();
+        });
+    }
+
+    // One task per view; tasks of other rings and levels stay empty.
+    std::vector<ImageTask> tasks_of_level(const Ring& ring, int level, const UnitEffort& effort) {
         std::vector<ImageTask> tasks(work_.size());
-        for (std::size_t v = 0; v < work_.size(); ++v) {
+        for (const std::size_t v : ring.views) {
             if (coded_.levels[v] != level) continue;
             ImageTask& task = tasks[v];
             task.code = &coded_.dense;
@@ -277,6 +296,7 @@ private:
     Progress* progress_;
     CodedImages coded_;
     std::vector<DenseWorkImage> work_;
+    std::vector<CodedError> errors_;  // [view]
     LevelJobs jobs_;
 };
 

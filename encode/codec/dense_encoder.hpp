@@ -35,8 +35,8 @@ constexpr int dense_alpha_bits(double step, double wanted_db) {
 }
 
 /// Encodes the images of an object, which supplies rings and sizes. The result does not depend on the number of
-/// threads. Memory: 4 bytes per sample of the coded size, and about two bytes per bit of the result. \param sources one
-/// per view, with settings.alpha_bits.
+/// threads. Memory: 4 bytes per sample of the coded size of the largest ring, and two bytes per coded decision.
+/// \param sources  one per view, with settings.alpha_bits.
 EncodedImages encode_dense(const RaySpaceObject& object, const std::vector<SourceImage>& sources,
                            const DenseSettings& settings, Progress* progress = nullptr);
 

@@ -9,7 +9,7 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
+#include <span>
 #include <vector>
 
 namespace rs::encode {
@@ -36,13 +36,20 @@ inline constexpr std::array<float, 3> kPlaneWeights = {3.0F, 3.258F, 2.476F};
 
 struct EncodedImages {
     codec::CodedImages coded;
-    double psnr_db = 0;  // measure_coded_psnr() against the sources
+    double psnr_db = 0;  // coded_psnr_db() against the sources
 };
 
-/// PSNR in dB of R, G and B over all samples of the sources with alpha of 128 or more. Does not depend on the number of
-/// threads.
-/// \param reconstruction  returns the decoded samples of a view; called from several threads.
-double measure_coded_psnr(const std::vector<SourceImage>& sources, int width, int height, int alpha_bits,
-                          const std::function<codec::ConstPlaneViews(std::size_t view)>& reconstruction);
+/// Squared error of R, G and B over samples with alpha of 128 or more.
+struct CodedError {
+    std::int64_t squares = 0;
+    std::int64_t samples = 0;  // each of R, G and B counts
+};
+
+/// Error of the decoded samples of an image of width x height pixels.
+CodedError measure_coded_error(const SourceImage& source, const codec::ConstPlaneViews& decoded, int width, int height,
+                               int alpha_bits);
+
+/// PSNR in dB of all images together.
+double coded_psnr_db(std::span<const CodedError> errors);
 
 }  // namespace rs::encode

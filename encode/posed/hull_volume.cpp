@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -85,16 +86,51 @@ struct Silhouettes {
     std::vector<ContourDistance> distances;
 };
 
+// Photos to project a point into. The others, `seen_by_others`, contain the point and do not rule it out.
+struct PhotoSelection {
+    std::vector<std::size_t> photos;
+    int seen_by_others = 0;
+};
+
+PhotoSelection all_photos(const Silhouettes& silhouettes) {
+    PhotoSelection all;
+    all.photos.resize(silhouettes.photos.size());
+    std::iota(all.photos.begin(), all.photos.end(), 0);
+    return all;
+}
+
+// Without the photos in which the block around `middle` is too far inside the matte to lower a truncated distance.
+PhotoSelection photos_of_block(const Silhouettes& silhouettes, const glm::dvec3& middle, double voxel) {
+    // More than half of a block's diagonal, for what projection and chamfer distances add.
+    constexpr double kReach_voxels = 1.3 * kBlock_voxels;
+    PhotoSelection selection;
+    for (std::size_t n = 0; n < silhouettes.photos.size(); ++n) {
+        const Camera& camera = silhouettes.photos[n].camera;
+        const glm::dvec3 seen = camera.project(middle);
+        const double px_per_voxel = camera.fl_x * voxel / seen.z;
+        const double frame_px = std::min({seen.x, seen.y, camera.width - seen.x, camera.height - seen.y});
+        const bool is_within = seen.z > kReach_voxels * voxel && frame_px > kReach_voxels * px_per_voxel;
+        const auto px = is_within ? silhouettes.distances[n].at(seen.x, seen.y) : std::nullopt;
+        const double least_px = (static_cast<double>(SignedVolume::kTruncation_voxels) + kReach_voxels) * px_per_voxel;
+        if (px && static_cast<double>(*px) > least_px) {
+            ++selection.seen_by_others;
+        } else {
+            selection.photos.push_back(n);
+        }
+    }
+    return selection;
+}
+
 // Distance of a voxel from the hull's surface in voxels, negative inside and at most `most`: the photo that rules out
 // the point most decides, after the tolerated ones.
-float hull_distance(const Silhouettes& silhouettes, const glm::dvec3& p, double voxel, const HullTolerance& tolerance,
-                    float most = SignedVolume::kTruncation_voxels) {
+float hull_distance(const Silhouettes& silhouettes, const PhotoSelection& selection, const glm::dvec3& p, double voxel,
+                    const HullTolerance& tolerance, float most = SignedVolume::kTruncation_voxels) {
     const auto tolerated =
         std::min(static_cast<int>(tolerance.tolerated * static_cast<double>(silhouettes.photos.size())), kMaxTolerated);
     std::array<float, kMaxTolerated + 1> least{};
     std::fill_n(least.begin(), tolerated + 1, most);
-    int seen_by = 0;
-    for (std::size_t n = 0; n < silhouettes.photos.size(); ++n) {
+    int seen_by = selection.seen_by_others;
+    for (const std::size_t n : selection.photos) {
         const Camera& camera = silhouettes.photos[n].camera;
         const glm::dvec3 seen = camera.project(p);
         if (seen.z <= 0) continue;
@@ -116,20 +152,21 @@ float hull_distance(const Silhouettes& silhouettes, const glm::dvec3& p, double 
 
 // Carves a block of voxels from `first`. Distances change by at most a voxel per voxel, so that the middle decides for
 // blocks far from the surface.
-void carve_block(const Silhouettes& silhouettes, const HullTolerance& tolerance, const glm::ivec3& first,
-                 SignedVolume& hull) {
+void carve_block(const Silhouettes& silhouettes, const PhotoSelection& all, const HullTolerance& tolerance,
+                 const glm::ivec3& first, SignedVolume& hull) {
     const VolumeGrid& grid = hull.grid();
     constexpr float kFar = SignedVolume::kTruncation_voxels + 0.9F * kBlock_voxels;  // half of a block's diagonal
     const glm::dvec3 middle = grid.low + grid.voxel * (glm::dvec3(first) + 0.5 * kBlock_voxels);
-    const float distance = hull_distance(silhouettes, middle, grid.voxel, tolerance, kFar);
+    const float distance = hull_distance(silhouettes, all, middle, grid.voxel, tolerance, kFar);
+    const bool is_far = std::abs(distance) >= kFar;
+    const PhotoSelection selection = is_far ? PhotoSelection{} : photos_of_block(silhouettes, middle, grid.voxel);
     const glm::ivec3 end = glm::min(first + kBlock_voxels, grid.size);
     for (int z = first.z; z < end.z; ++z) {
         for (int y = first.y; y < end.y; ++y) {
             float* const row = hull.row(y, z);
             for (int x = first.x; x < end.x; ++x) {
-                row[x] = distance >= kFar    ? SignedVolume::kTruncation_voxels
-                         : distance <= -kFar ? -SignedVolume::kTruncation_voxels
-                                             : hull_distance(silhouettes, grid.centre(x, y, z), grid.voxel, tolerance);
+                row[x] = is_far ? std::copysign(SignedVolume::kTruncation_voxels, distance)
+                                : hull_distance(silhouettes, selection, grid.centre(x, y, z), grid.voxel, tolerance);
             }
         }
     }
@@ -140,10 +177,11 @@ SignedVolume carve(const Silhouettes& silhouettes, const VolumeGrid& grid, const
     SignedVolume hull(grid);
     const glm::ivec3 blocks = (grid.size + (kBlock_voxels - 1)) / kBlock_voxels;
     if (progress != nullptr) progress->start("visual hull", blocks.z);
+    const PhotoSelection all = all_photos(silhouettes);
     for_each_index(blocks.z, [&](int z) {
         for (int y = 0; y < blocks.y; ++y) {
             for (int x = 0; x < blocks.x; ++x) {
-                carve_block(silhouettes, tolerance, kBlock_voxels * glm::ivec3(x, y, z), hull);
+                carve_block(silhouettes, all, tolerance, kBlock_voxels * glm::ivec3(x, y, z), hull);
             }
         }
         if (progress != nullptr) progress->advance();

@@ -2,6 +2,7 @@
 
 #include "encode/posed/depth_fusion.hpp"
 #include "encode/set/set_checks.hpp"
+#include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/rig_conventions.hpp"
 
@@ -15,6 +16,8 @@
 
 namespace rs::encode {
 namespace {
+
+constexpr double kNearPhoto_deg = 2;  // between the directions of a photo and a view that shows it almost unchanged
 
 Result<std::vector<PosedPhoto>> read_photos(const CaptureSet& set, Progress* progress) {
     std::vector<PosedPhoto> photos(set.captured.views.size());
@@ -37,14 +40,31 @@ Result<SignedVolume> reconstruct_surface(std::span<const PosedPhoto> photos, con
     return fuse_depths(hull.volume, depths, progress);
 }
 
-std::string summary(std::size_t photos, const RingPlan& plan) {
+// Share of the synthesized views that a photo shows from nearly the same direction.
+double photographed_share(std::span<const PosedPhoto> photos, const RingPlan& plan) {
+    const double least_cosine = std::cos(radians(kNearPhoto_deg));
+    double near = 0, all = 0;
+    for (std::size_t n = 0; n < plan.photos.size(); ++n) {
+        if (plan.photos[n] >= 0) continue;
+        const glm::dvec3 direction = glm::normalize(plan.rig.views[n].camera.centre());
+        const bool is_near = std::ranges::any_of(photos, [&](const PosedPhoto& photo) {
+            return glm::dot(direction, glm::normalize(photo.camera.centre())) >= least_cosine;
+        });
+        near += is_near ? 1 : 0;
+        all += 1;
+    }
+    return all > 0 ? near / all : 0;
+}
+
+std::string summary(std::span<const PosedPhoto> photos, const RingPlan& plan) {
     const auto whole = [](double degrees) { return std::to_string(std::lround(degrees)); };
     const auto synthesized = std::ranges::count(plan.photos, -1);
     const auto used = static_cast<std::ptrdiff_t>(plan.photos.size()) - synthesized;
     return "the cameras are not one turn: " + std::to_string(synthesized) + " views, for " +
            std::to_string(plan.rings.size()) + " rings at elevations of " + whole(plan.lowest_deg) + " to " +
-           whole(plan.highest_deg) + " degrees, are synthesized from " + std::to_string(photos) + " photos" +
-           (used > 0 ? "; " + std::to_string(used) + " photos are used as they are" : "");
+           whole(plan.highest_deg) + " degrees, are synthesized from " + std::to_string(photos.size()) + " photos, " +
+           whole(100 * photographed_share(photos, plan)) + " % of them within " + whole(kNearPhoto_deg) +
+           " degrees of a photo" + (used > 0 ? "; " + std::to_string(used) + " photos are used as they are" : "");
 }
 
 }  // namespace
@@ -60,7 +80,7 @@ Result<CaptureSet> with_rings(CaptureSet set, const PosedOptions& options, Progr
     Result<RingPlan> plan = plan_rings(*photos, *bounds, options.rings);
     if (!plan) return Error{set.file.string() + ": " + plan.error().message};
 
-    set.warnings.push_back(summary(photos->size(), *plan));
+    set.warnings.push_back(summary(*photos, *plan));
     set.posed = false;
     set.upright.views = std::move(plan->rig.views);
     set.upright.object_radius = plan->rig.object_radius;
@@ -83,8 +103,7 @@ Result<CaptureSet> with_rings(CaptureSet set, const PosedOptions& options, Progr
     RS_TRY(for_each_in_parallel(count, "synthesized views", progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
         if (plan->photos[n] >= 0) return {};
-        set.synthesized[n] =
-            std::make_shared<const SynthesizedView>(synthesizer.synthesize(set.upright.views[n].camera));
+        set.synthesized[n] = std::make_shared<const PackedView>(synthesizer.synthesize(set.upright.views[n].camera));
         return {};
     }));
     return set;

@@ -22,7 +22,7 @@ struct PosedOptions {
 /// Returns a set of rings of synthesized views; a set of rings is returned as it is. The numbers of photos, views and
 /// rings are appended to CaptureSet::warnings. Errors: those of carve_hull() and plan_rings(), and of reading photos.
 /// Memory: 12 bytes per pixel of the photos while their depth is estimated, 8 while views are synthesized; 8 per voxel,
-/// and 8 per pixel of the views.
+/// and 8 per object pixel of the views (PackedView).
 Result<CaptureSet> with_rings(CaptureSet set, const PosedOptions& options = {}, Progress* progress = nullptr);
 
 }  // namespace rs::encode

@@ -23,7 +23,7 @@ struct RingPlanOptions {
     double steepest_turn_deg = 65;                      // turns up to here keep their photos' cameras
     int views = 48;                                     // of a level ring; they are as dense in the others
     double least_distance_radii = 1.6;                  // from a ring's axis
-    std::int64_t memory_bytes = std::int64_t{2} << 30;  // of all views at 8 bytes per pixel
+    std::int64_t memory_bytes = std::int64_t{2} << 30;  // of all views at 8 bytes per pixel, before packing
 };
 
 struct RingPlan {

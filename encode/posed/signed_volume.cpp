@@ -19,20 +19,18 @@ VolumeGrid make_grid(const glm::dvec3& low, const glm::dvec3& high, int longest)
     return grid;
 }
 
-float SignedVolume::sample(const glm::dvec3& p_in_world) const {
-    const glm::dvec3 g = (p_in_world - grid_.low) / grid_.voxel - 0.5;
-    const auto x = static_cast<int>(std::floor(g.x));
-    const auto y = static_cast<int>(std::floor(g.y));
-    const auto z = static_cast<int>(std::floor(g.z));
-    if (x < 0 || y < 0 || z < 0 || x + 1 >= grid_.size.x || y + 1 >= grid_.size.y || z + 1 >= grid_.size.z) {
-        return kTruncation_voxels;
-    }
-    const auto fx = static_cast<float>(g.x - x);
-    const auto fy = static_cast<float>(g.y - y);
-    const auto fz = static_cast<float>(g.z - z);
+float SignedVolume::sample_in_grid(const glm::vec3& p) const {
+    if (!(p.x >= 0 && p.y >= 0 && p.z >= 0)) return kTruncation_voxels;
+    const auto x = static_cast<int>(p.x);
+    const auto y = static_cast<int>(p.y);
+    const auto z = static_cast<int>(p.z);
+    if (x + 1 >= grid_.size.x || y + 1 >= grid_.size.y || z + 1 >= grid_.size.z) return kTruncation_voxels;
+    const float fx = p.x - static_cast<float>(x);
+    const float fy = p.y - static_cast<float>(y);
+    const float fz = p.z - static_cast<float>(z);
     const float* const a = distances_.data() + grid_.index(x, y, z);
     const float* const b = a + grid_.size.x;
-    const float* const c = distances_.data() + grid_.index(x, y, z + 1);
+    const float* const c = a + grid_.index(0, 0, 1);
     const float* const d = c + grid_.size.x;
     const auto along_x = [&](const float* v) { return v[0] + fx * (v[1] - v[0]); };
     const float near = along_x(a) + fy * (along_x(b) - along_x(a));
@@ -40,14 +38,19 @@ float SignedVolume::sample(const glm::dvec3& p_in_world) const {
     return near + fz * (far - near);
 }
 
+float SignedVolume::sample(const glm::dvec3& p_in_world) const {
+    return sample_in_grid(glm::vec3((p_in_world - grid_.low) / grid_.voxel - 0.5));
+}
+
 glm::dvec3 SignedVolume::normal(const glm::dvec3& p_in_world) const {
-    glm::dvec3 gradient{0};
+    const glm::vec3 p((p_in_world - grid_.low) / grid_.voxel - 0.5);
+    glm::vec3 gradient{0};
     for (int axis = 0; axis < 3; ++axis) {
-        glm::dvec3 step{0};
-        step[axis] = grid_.voxel;
-        gradient[axis] = static_cast<double>(sample(p_in_world + step) - sample(p_in_world - step));
+        glm::vec3 step{0};
+        step[axis] = 1;
+        gradient[axis] = sample_in_grid(p + step) - sample_in_grid(p - step);
     }
-    const double length = glm::length(gradient);
+    const float length = glm::length(gradient);
     return length > 0 ? gradient / length : gradient;
 }
 
@@ -64,23 +67,44 @@ std::optional<SignedVolume::Span> SignedVolume::clip(const glm::dvec3& origin, c
         span.from = std::max(span.from, std::min(a, b));
         span.to = std::min(span.to, std::max(a, b));
     }
-    if (span.from >= span.to) return std::nullopt;
+    if (span.empty()) return std::nullopt;
     return span;
 }
 
 void SignedVolume::index_empty_blocks() {
+    constexpr int kMaxClearance_blocks = 8;
     blocks_ = (grid_.size + (kBlock_voxels - 1)) / kBlock_voxels;
-    empty_.assign(
-        static_cast<std::size_t>(blocks_.x) * static_cast<std::size_t>(blocks_.y) * static_cast<std::size_t>(blocks_.z),
-        0);
+    clearance_.assign(block_index({0, 0, blocks_.z}), 0);
     for_each_index(blocks_.z, [&](int z) {
         for (int y = 0; y < blocks_.y; ++y) {
-            for (int x = 0; x < blocks_.x; ++x) {
-                const auto n = static_cast<std::size_t>((z * blocks_.y + y) * blocks_.x + x);
-                empty_[n] = is_empty({x, y, z}) ? 1 : 0;
-            }
+            for (int x = 0; x < blocks_.x; ++x) clearance_[block_index({x, y, z})] = is_empty({x, y, z}) ? 1 : 0;
         }
     });
+    for (int n = 1; n < kMaxClearance_blocks; ++n) widen_clearance(n);
+}
+
+void SignedVolume::widen_clearance(int least) {
+    const auto all_clear = [&](const glm::ivec3& low, const glm::ivec3& high) {
+        for (int z = low.z; z <= high.z; ++z) {
+            for (int y = low.y; y <= high.y; ++y) {
+                for (int x = low.x; x <= high.x; ++x) {
+                    if (clearance_[block_index({x, y, z})] < least) return false;
+                }
+            }
+        }
+        return true;
+    };
+    for (int z = 0; z < blocks_.z; ++z) {
+        for (int y = 0; y < blocks_.y; ++y) {
+            for (int x = 0; x < blocks_.x; ++x) {
+                std::uint8_t& clearance = clearance_[block_index({x, y, z})];
+                const glm::ivec3 block(x, y, z);
+                if (clearance == least &&
+                    all_clear(glm::max(block - 1, glm::ivec3(0)), glm::min(block + 1, blocks_ - 1)))
+                    ++clearance;
+            }
+        }
+    }
 }
 
 bool SignedVolume::is_empty(const glm::ivec3& block) const {
@@ -96,49 +120,94 @@ bool SignedVolume::is_empty(const glm::ivec3& block) const {
     return true;
 }
 
-double SignedVolume::skip_empty(const glm::dvec3& origin, const glm::dvec3& direction, double t) const {
-    const double side = grid_.voxel * kBlock_voxels;
-    const glm::ivec3 block(glm::floor((origin + t * direction - grid_.low) / side));
-    if (block.x < 0 || block.y < 0 || block.z < 0 || block.x >= blocks_.x || block.y >= blocks_.y ||
-        block.z >= blocks_.z) {
-        return t;
-    }
-    if (empty_[static_cast<std::size_t>((block.z * blocks_.y + block.y) * blocks_.x + block.x)] == 0) return t;
-    double left = std::numeric_limits<double>::max();
+float SignedVolume::end_of_empty(const glm::vec3& first, const glm::vec3& forward, float at) const {
+    constexpr float kBeyondWall_voxels = 1e-3F;
+    const glm::vec3 in_blocks = (first + at * forward + 0.5F) / static_cast<float>(kBlock_voxels);
+    if (!(in_blocks.x >= 0 && in_blocks.y >= 0 && in_blocks.z >= 0)) return at;
+    const glm::ivec3 block(in_blocks);
+    if (block.x >= blocks_.x || block.y >= blocks_.y || block.z >= blocks_.z) return at;
+    const int clear = clearance_[block_index(block)];
+    if (clear == 0) return at;
+    float left = std::numeric_limits<float>::max();
     for (int axis = 0; axis < 3; ++axis) {
-        if (std::abs(direction[axis]) < 1e-12) continue;
-        const double wall = grid_.low[axis] + side * (block[axis] + (direction[axis] > 0 ? 1 : 0));
-        left = std::min(left, (wall - origin[axis]) / direction[axis]);
+        if (std::abs(forward[axis]) < 1e-9F) continue;
+        const int wall = kBlock_voxels * (block[axis] + (forward[axis] > 0 ? clear : 1 - clear));
+        left = std::min(left, (static_cast<float>(wall) - 0.5F - first[axis]) / forward[axis]);
     }
-    return left + 1e-3 * grid_.voxel / glm::length(direction);
+    return left + kBeyondWall_voxels;
 }
 
 std::optional<double> SignedVolume::intersect(const glm::dvec3& origin, const glm::dvec3& direction,
                                               const Span& span) const {
     // Distances along depth maps' rays exceed those to the surface, so that steps are shorter.
-    constexpr double kPartOfDistance = 0.7;
-    constexpr double kLeastStep_voxels = 0.4;
-    const double per_voxel = grid_.voxel / glm::length(direction);
-    double before = span.from;
-    double before_distance = 1;
-    for (double t = span.from; t < span.to;) {
-        const auto distance = static_cast<double>(sample(origin + t * direction));
+    constexpr float kPartOfDistance = 0.7F;
+    constexpr float kLeastStep_voxels = 0.4F;
+    const double voxels_per_t = glm::length(direction) / grid_.voxel;
+    // Steps are in voxels from the span's first point.
+    const glm::vec3 first((origin + span.from * direction - grid_.low) / grid_.voxel - 0.5);
+    const glm::vec3 forward(direction / (grid_.voxel * voxels_per_t));
+    const auto end = static_cast<float>((span.to - span.from) * voxels_per_t);
+    const auto as_t = [&](float step) { return span.from + static_cast<double>(step) / voxels_per_t; };
+    float before = 0;
+    float before_distance = 1;
+    for (float at = 0; at < end;) {
+        const glm::vec3 p = first + at * forward;
+        const float distance = sample_in_grid(p);
         if (distance <= 0) {
-            if (t == span.from) return t;
-            return before + (t - before) * before_distance / (before_distance - distance);
+            return as_t(at == 0 ? 0 : before + (at - before) * before_distance / (before_distance - distance));
         }
-        before = t;
+        before = at;
         before_distance = distance;
-        if (distance >= static_cast<double>(kTruncation_voxels)) {
-            const double left = skip_empty(origin, direction, t);
-            if (left > t) {
-                t = left;
-                continue;
-            }
-        }
-        t += per_voxel * std::max(kLeastStep_voxels, kPartOfDistance * distance);
+        const float step = std::max(kLeastStep_voxels, kPartOfDistance * distance);
+        at = std::max(at + step, distance < kTruncation_voxels ? 0 : end_of_empty(first, forward, at));
     }
     return std::nullopt;
+}
+
+std::vector<SignedVolume::Span> SignedVolume::depths_of_tiles(const Camera& camera, int tile_px) const {
+    constexpr double kMargin_px = 1;  // beyond the tiles' borders, for rounding
+    const int across = (camera.width + tile_px - 1) / tile_px;
+    const int down = (camera.height + tile_px - 1) / tile_px;
+    constexpr double kFar = std::numeric_limits<double>::max();
+    std::vector<Span> tiles(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), Span{kFar, 0});
+    const auto widen = [&](const glm::ivec2& first, const glm::ivec2& last, double near, double far) {
+        for (int y = std::max(first.y, 0); y <= std::min(last.y, down - 1); ++y) {
+            for (int x = std::max(first.x, 0); x <= std::min(last.x, across - 1); ++x) {
+                Span& span = tiles[static_cast<std::size_t>(y * across + x)];
+                span = {std::min(span.from, near), std::max(span.to, far)};
+            }
+        }
+    };
+    // A block's half extent along the camera's axes.
+    const double half = grid_.voxel * kBlock_voxels / 2;
+    const auto extent = [&](const glm::dvec3& axis) {
+        return half * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
+    };
+    const glm::dvec3 reach(extent(camera.right()), extent(camera.up()), extent(camera.forward()));
+    for (int z = 0; z < blocks_.z; ++z) {
+        for (int y = 0; y < blocks_.y; ++y) {
+            for (int x = 0; x < blocks_.x; ++x) {
+                if (clearance_[block_index({x, y, z})] != 0) continue;
+                const glm::dvec3 v = grid_.low + 2 * half * glm::dvec3(x + 0.5, y + 0.5, z + 0.5) - camera.centre();
+                const double depth = glm::dot(v, camera.forward());
+                const double near = depth - reach.z - grid_.voxel, far = depth + reach.z + grid_.voxel;
+                if (far <= 0) continue;
+                if (near <= 0.01 * far) {
+                    widen({0, 0}, {across - 1, down - 1}, 0, far);
+                    continue;
+                }
+                const glm::dvec2 middle(glm::dot(v, camera.right()), -glm::dot(v, camera.up()));
+                const glm::dvec2 focal(camera.fl_x, camera.fl_y), principal(camera.cx, camera.cy);
+                const glm::dvec2 low = focal * (middle - glm::dvec2(reach)),
+                                 high = focal * (middle + glm::dvec2(reach));
+                const glm::dvec2 first = principal + glm::min(low / near, low / far) - kMargin_px;
+                const glm::dvec2 last = principal + glm::max(high / near, high / far) + kMargin_px;
+                widen(glm::ivec2(glm::floor(first / static_cast<double>(tile_px))),
+                      glm::ivec2(glm::floor(last / static_cast<double>(tile_px))), near, far);
+            }
+        }
+    }
+    return tiles;
 }
 
 std::optional<SignedVolume::Bounds> SignedVolume::bounds() const {
@@ -160,14 +229,20 @@ std::optional<SignedVolume::Bounds> SignedVolume::bounds() const {
 }
 
 Image<float> cast_depth(const SignedVolume& volume, const Camera& camera) {
+    constexpr int kTile_px = 16;
     Image<float> depth(camera.width, camera.height, 0.0F);
     const glm::dvec3 origin = camera.centre();
-    for_each_index(camera.height, [&](int y) {
-        for (int x = 0; x < camera.width; ++x) {
-            const glm::dvec3 direction = camera.ray(x + 0.5, y + 0.5);
-            const auto span = volume.clip(origin, direction);
-            if (!span) continue;
-            if (const auto t = volume.intersect(origin, direction, *span)) depth(x, y) = static_cast<float>(*t);
+    const std::vector<SignedVolume::Span> spans = volume.depths_of_tiles(camera, kTile_px);
+    const int across = (camera.width + kTile_px - 1) / kTile_px;
+    for_each_index(spans.size(), [&](std::size_t tile) {
+        if (spans[tile].empty()) return;
+        const int left = static_cast<int>(tile) % across * kTile_px;
+        const int top = static_cast<int>(tile) / across * kTile_px;
+        for (int y = top; y < std::min(top + kTile_px, camera.height); ++y) {
+            for (int x = left; x < std::min(left + kTile_px, camera.width); ++x) {
+                const auto t = volume.intersect(origin, camera.ray(x + 0.5, y + 0.5), spans[tile]);
+                if (t) depth(x, y) = static_cast<float>(*t);
+            }
         }
     });
     return depth;

@@ -53,14 +53,19 @@ public:
     /// The gradient's direction, which is the outward normal; (0, 0, 0) where the distances are constant.
     [[nodiscard]] glm::dvec3 normal(const glm::dvec3& p_in_world) const;
 
-    /// Multiples of `direction` from `origin` at which a ray enters the grid's box and leaves it.
+    /// Part of a ray, in multiples of its direction.
     struct Span {
         double from = 0, to = 0;
+        [[nodiscard]] bool empty() const { return from >= to; }
     };
+    /// Between the points at which a ray enters the grid's box and leaves it.
     [[nodiscard]] std::optional<Span> clip(const glm::dvec3& origin, const glm::dvec3& direction) const;
     /// The first surface along a ray within `span` (after index_empty_blocks()), as a multiple of `direction`.
     [[nodiscard]] std::optional<double> intersect(const glm::dvec3& origin, const glm::dvec3& direction,
                                                   const Span& span) const;
+    /// The axial depths between which the rays of each square tile of a view, including its border, may meet a surface
+    /// (after index_empty_blocks()); an empty span where they meet none. Row by row.
+    [[nodiscard]] std::vector<Span> depths_of_tiles(const Camera& camera, int tile_px) const;
 
     /// The box of all voxels inside the object; nullopt if there are none.
     struct Bounds {
@@ -71,18 +76,27 @@ public:
 
 private:
     static constexpr int kBlock_voxels = 8;
-    // Multiple of `direction` at which a ray leaves the empty block that contains its point at `t`; `t` where the block
-    // is not empty.
-    [[nodiscard]] double skip_empty(const glm::dvec3& origin, const glm::dvec3& direction, double t) const;
+    // In grid coordinates, in which voxel centres are whole numbers.
+    [[nodiscard]] float sample_in_grid(const glm::vec3& p) const;
+    [[nodiscard]] std::size_t block_index(const glm::ivec3& block) const {
+        return static_cast<std::size_t>((block.z * blocks_.y + block.y) * blocks_.x + block.x);
+    }
+    // Step of a ray first + step * forward (in grid coordinates) at which it leaves the empty blocks around its point
+    // at step `at`; `at` where the block is not empty.
+    [[nodiscard]] float end_of_empty(const glm::vec3& first, const glm::vec3& forward, float at) const;
     [[nodiscard]] bool is_empty(const glm::ivec3& block) const;
+    // Sets the clearance of the empty blocks whose neighbours all have the clearance `least` to one more.
+    void widen_clearance(int least);
 
     VolumeGrid grid_;
     std::vector<float> distances_;
     glm::ivec3 blocks_{0};
-    std::vector<std::uint8_t> empty_;  // 1: every voxel of the block and next to it is at kTruncation_voxels
+    // [block], in blocks. 0: a voxel of the block or next to it is below kTruncation_voxels; n: blocks less than n away
+    // have a clearance above 0.
+    std::vector<std::uint8_t> clearance_;
 };
 
-/// Axial depth of the first surface at each pixel's centre; 0: no surface. Runs in parallel over rows.
+/// Axial depth of the first surface at each pixel's centre; 0: no surface. Runs in parallel over tiles.
 Image<float> cast_depth(const SignedVolume& volume, const Camera& camera);
 
 }  // namespace rs::encode

@@ -34,11 +34,6 @@ double smooth_step(double from, double to, double value) {
     return t * t * (3 - 2 * t);
 }
 
-RgbaF premultiplied(const Rgba8& p) {
-    const float a = static_cast<float>(p.a) / 255.0F;
-    return {linear_from_srgb8(p.r) * a, linear_from_srgb8(p.g) * a, linear_from_srgb8(p.b) * a, a};
-}
-
 Rgba8 encoded(const RgbaF& sum) {
     if (sum.a <= 0) return {};
     const auto code = [&](float value) { return srgb8_by_table(value / sum.a); };
@@ -62,19 +57,20 @@ ViewSynthesizer::ViewSynthesizer(std::span<const PosedPhoto> photos, const Signe
     if (progress != nullptr) progress->finish();
 }
 
-std::vector<ViewSynthesizer::Candidate> ViewSynthesizer::candidates_near(const Camera& camera, const glm::dvec3& p,
-                                                                         std::size_t count) const {
+std::vector<const ViewSynthesizer::Source*> ViewSynthesizer::candidates_near(const Camera& camera,
+                                                                             const glm::dvec3& p) const {
     const glm::dvec3 wanted = glm::normalize(camera.centre() - p);
-    std::vector<Candidate> all;
+    std::vector<std::pair<double, const Source*>> all;  // by decreasing cosine of the angle to the view's ray
     all.reserve(sources_.size());
     for (const Source& source : sources_) {
-        all.push_back({&source, glm::dot(wanted, glm::normalize(source.camera.centre() - p))});
+        all.emplace_back(-glm::dot(wanted, glm::normalize(source.camera.centre() - p)), &source);
     }
-    const std::size_t kept = std::min(count, all.size());
-    std::ranges::partial_sort(all, all.begin() + static_cast<std::ptrdiff_t>(kept),
-                              [](const Candidate& a, const Candidate& b) { return a.cosine > b.cosine; });
-    all.resize(kept);
-    return all;
+    const std::size_t count = std::min(kCandidates, all.size());
+    std::ranges::partial_sort(all, all.begin() + static_cast<std::ptrdiff_t>(count));
+    std::vector<const Source*> nearest(count);
+    std::transform(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), nearest.begin(),
+                   [](const auto& candidate) { return candidate.second; });
+    return nearest;
 }
 
 // 1 where the photo shows the point (x, y px, axial depth z), 0 where a nearer surface hides it.
@@ -94,29 +90,35 @@ float ViewSynthesizer::visibility(const Source& source, const glm::dvec3& seen) 
                               smooth_step(1, kFade_px, margin_px));
 }
 
-RgbaF ViewSynthesizer::blend(const std::vector<Candidate>& candidates, const Camera& camera,
+RgbaF ViewSynthesizer::blend(std::span<const Source* const> candidates, const Camera& camera,
                              const glm::dvec3& p) const {
+    struct Direction {
+        double cosine = 0;  // of the angle to the view's ray
+        glm::dvec3 towards{0};
+        const Source* source = nullptr;
+    };
     const glm::dvec3 wanted = glm::normalize(camera.centre() - p);
-    const glm::dvec3 normal = surface_.normal(p);
     const auto blended_most = static_cast<std::size_t>(std::min(options_.blended, kMaxBlended));
-    std::array<std::pair<double, const Source*>, kCandidates> by_angle;
-    std::size_t candidate_count = 0;
-    for (const Candidate& candidate : candidates) {
-        const glm::dvec3 towards = glm::normalize(candidate.source->camera.centre() - p);
-        const double angle = std::acos(std::clamp(glm::dot(wanted, towards), -1.0, 1.0));
-        by_angle[candidate_count++] = {angle, candidate.source};
+    std::array<Direction, kCandidates> nearest;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const glm::dvec3 towards = glm::normalize(candidates[i]->camera.centre() - p);
+        nearest[i] = {glm::dot(wanted, towards), towards, candidates[i]};
     }
-    std::sort(by_angle.begin(), by_angle.begin() + static_cast<std::ptrdiff_t>(candidate_count));
+    const auto end = nearest.begin() + static_cast<std::ptrdiff_t>(candidates.size());
+    std::sort(nearest.begin(), end, [](const Direction& a, const Direction& b) {
+        return a.cosine != b.cosine ? a.cosine > b.cosine : a.source < b.source;
+    });
+    const glm::dvec3 normal = surface_.normal(p);
     std::array<Contribution, kMaxBlended + 1> found;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < candidate_count && count <= blended_most; ++i) {
-        const Source& source = *by_angle[i].second;
-        const glm::dvec3 seen = source.camera.project(p);
-        const double visible = static_cast<double>(visibility(source, seen));
+    for (auto n = nearest.begin(); n != end && count <= blended_most; ++n) {
+        const glm::dvec3 seen = n->source->camera.project(p);
+        const double visible = static_cast<double>(visibility(*n->source, seen));
         if (visible <= 0) continue;
-        const double facing = glm::dot(normal, glm::normalize(source.camera.centre() - p));
-        found[count++] = {by_angle[i].first, visible * (0.02 + smooth_step(0.0, 0.35, facing)),
-                          premultiplied(sample_premultiplied(source.image, seen.x, seen.y))};
+        const double facing = glm::dot(normal, n->towards);
+        found[count++] = {std::acos(std::clamp(n->cosine, -1.0, 1.0)),
+                          visible * (0.02 + smooth_step(0.0, 0.35, facing)),
+                          sample_linear(n->source->image, seen.x, seen.y)};
     }
     if (count == 0) return {};
     const std::size_t blended = std::min(count, blended_most);
@@ -142,8 +144,12 @@ RgbaF ViewSynthesizer::blend(const std::vector<Candidate>& candidates, const Cam
     return {sum.r * scale, sum.g * scale, sum.b * scale, alpha};
 }
 
-ViewSynthesizer::Pixel ViewSynthesizer::render_pixel(const Camera& camera, int x, int y,
-                                                     std::vector<Candidate>& candidates) const {
+RgbaF ViewSynthesizer::colour_at(const Camera& camera, const glm::dvec3& p, Tile& tile) const {
+    if (tile.candidates.empty()) tile.candidates = candidates_near(camera, p);
+    return blend(tile.candidates, camera, p);
+}
+
+ViewSynthesizer::Pixel ViewSynthesizer::render_edge(const Camera& camera, int x, int y, Tile& tile) const {
     const int raster = options_.raster;
     const int rays = raster * raster;
     const glm::dvec3 origin = camera.centre();
@@ -155,26 +161,24 @@ ViewSynthesizer::Pixel ViewSynthesizer::render_pixel(const Camera& camera, int x
         const int row = i / raster;
         const int column = i % raster;
         const glm::dvec3 direction = camera.ray(x + (column + 0.5) / raster, y + (row + 0.5) / raster);
-        const auto span = surface_.clip(origin, direction);
-        const auto t = span ? surface_.intersect(origin, direction, *span) : std::nullopt;
+        const auto t = surface_.intersect(origin, direction, tile.depths);
         if (!t) continue;
         points[hits++] = origin + *t * direction;
         nearest = std::min(nearest, *t);
         farthest = std::max(farthest, *t);
     }
     if (hits == 0) return {};
-    if (candidates.empty()) candidates = candidates_near(camera, points[0], kCandidates);
     Pixel pixel{{}, static_cast<float>(nearest)};
     const bool smooth = farthest - nearest < kSmooth_voxels * surface_.grid().voxel;
     if (static_cast<int>(hits) == rays && smooth) {
         glm::dvec3 middle{0};
         for (std::size_t i = 0; i < hits; ++i) middle += points[i] / static_cast<double>(hits);
-        pixel.colour = blend(candidates, camera, middle);
+        pixel.colour = colour_at(camera, middle, tile);
         return pixel;
     }
     const float per = 1.0F / static_cast<float>(rays);
     for (std::size_t i = 0; i < hits; ++i) {
-        const RgbaF colour = blend(candidates, camera, points[i]);
+        const RgbaF colour = colour_at(camera, points[i], tile);
         pixel.colour.r += per * colour.r;
         pixel.colour.g += per * colour.g;
         pixel.colour.b += per * colour.b;
@@ -183,21 +187,60 @@ ViewSynthesizer::Pixel ViewSynthesizer::render_pixel(const Camera& camera, int x
     return pixel;
 }
 
+void ViewSynthesizer::cast_corners(const Camera& camera, const Tile& tile, Image<float>& corners) const {
+    if (tile.depths.empty()) return;
+    // The last tiles include the frame's border.
+    const int right = tile.left + kTile_px < camera.width ? tile.left + kTile_px : corners.width();
+    const int bottom = tile.top + kTile_px < camera.height ? tile.top + kTile_px : corners.height();
+    for (int y = tile.top; y < bottom; ++y) {
+        for (int x = tile.left; x < right; ++x) {
+            const auto t = surface_.intersect(camera.centre(), camera.ray(x, y), tile.depths);
+            corners(x, y) = t ? static_cast<float>(*t) : 0.0F;
+        }
+    }
+}
+
+void ViewSynthesizer::render_tile(const Camera& camera, const Image<float>& corners, Tile& tile,
+                                  SynthesizedView& view) const {
+    const auto any_hit_around = [&](int x, int y) {
+        for (int j = std::max(y - 1, 0); j <= std::min(y + 2, camera.height); ++j) {
+            for (int i = std::max(x - 1, 0); i <= std::min(x + 2, camera.width); ++i) {
+                if (corners(i, j) > 0) return true;
+            }
+        }
+        return false;
+    };
+    for (int y = tile.top; y < std::min(tile.top + kTile_px, camera.height); ++y) {
+        for (int x = tile.left; x < std::min(tile.left + kTile_px, camera.width); ++x) {
+            const std::array<float, 4> depths = {corners(x, y), corners(x + 1, y), corners(x, y + 1),
+                                                 corners(x + 1, y + 1)};
+            const auto [least, most] = std::ranges::minmax(depths);
+            Pixel pixel;
+            if (least > 0 && static_cast<double>(most - least) < kSmooth_voxels * surface_.grid().voxel) {
+                pixel.depth = (depths[0] + depths[1] + depths[2] + depths[3]) / 4;
+                const glm::dvec3 direction = camera.ray(x + 0.5, y + 0.5);
+                pixel.colour = colour_at(camera, camera.centre() + static_cast<double>(pixel.depth) * direction, tile);
+            } else if (most > 0 || any_hit_around(x, y)) {
+                pixel = render_edge(camera, x, y, tile);
+            }
+            view.image(x, y) = encoded(pixel.colour);
+            if (view.image(x, y).a != 0) view.depth(x, y) = pixel.depth;
+        }
+    }
+}
+
 SynthesizedView ViewSynthesizer::synthesize(const Camera& camera) const {
     SynthesizedView view{Image<Rgba8>(camera.width, camera.height), Image<float>(camera.width, camera.height, 0.0F)};
     const int across = (camera.width + kTile_px - 1) / kTile_px;
-    const int down = (camera.height + kTile_px - 1) / kTile_px;
-    for_each_index(across * down, [&](int tile) {
-        const int left = tile % across * kTile_px;
-        const int top = tile / across * kTile_px;
-        std::vector<Candidate> candidates;
-        for (int y = top; y < std::min(top + kTile_px, camera.height); ++y) {
-            for (int x = left; x < std::min(left + kTile_px, camera.width); ++x) {
-                const Pixel pixel = render_pixel(camera, x, y, candidates);
-                view.image(x, y) = encoded(pixel.colour);
-                if (view.image(x, y).a != 0) view.depth(x, y) = pixel.depth;
-            }
-        }
+    const std::vector<SignedVolume::Span> depths = surface_.depths_of_tiles(camera, kTile_px);
+    const auto tile_at = [&](std::size_t n) {
+        return Tile{static_cast<int>(n) % across * kTile_px, static_cast<int>(n) / across * kTile_px, depths[n], {}};
+    };
+    Image<float> corners(camera.width + 1, camera.height + 1, 0.0F);
+    for_each_index(depths.size(), [&](std::size_t n) { cast_corners(camera, tile_at(n), corners); });
+    for_each_index(depths.size(), [&](std::size_t n) {
+        Tile tile = tile_at(n);
+        if (!tile.depths.empty()) render_tile(camera, corners, tile, view);
     });
     return view;
 }

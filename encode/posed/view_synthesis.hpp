@@ -4,7 +4,7 @@
 
 #include "encode/posed/posed_photo.hpp"
 #include "encode/posed/signed_volume.hpp"
-#include "encode/set/capture_set.hpp"
+#include "encode/set/packed_view.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 
@@ -15,7 +15,7 @@ namespace rs::encode {
 
 struct SynthesisOptions {
     int blended = 4;  // photos per pixel
-    int raster = 2;   // rays along a pixel's side, at most 4
+    int raster = 2;   // rays along the side of a pixel with an edge, at most 4
 };
 
 class ViewSynthesizer {
@@ -33,20 +33,24 @@ private:
         ConstImageView<Rgba8> image;
         Image<float> depth;  // of the surface, axial
     };
-    struct Candidate {
-        const Source* source = nullptr;
-        double cosine = -1;  // of the angle to the view's ray
-    };
     struct Pixel {
         RgbaF colour;     // linear light times alpha
         float depth = 0;  // of the nearest surface
     };
-    // `candidates` are those of the pixel's tile, found at its first surface.
-    [[nodiscard]] Pixel render_pixel(const Camera& camera, int x, int y, std::vector<Candidate>& candidates) const;
-    [[nodiscard]] std::vector<Candidate> candidates_near(const Camera& camera, const glm::dvec3& p,
-                                                         std::size_t count) const;
+    // The part of a view that shares the photos to blend.
+    struct Tile {
+        int left = 0, top = 0;
+        SignedVolume::Span depths;
+        std::vector<const Source*> candidates;  // found at the tile's first surface
+    };
+    void cast_corners(const Camera& camera, const Tile& tile, Image<float>& corners) const;
+    void render_tile(const Camera& camera, const Image<float>& corners, Tile& tile, SynthesizedView& view) const;
+    // Casts several rays.
+    [[nodiscard]] Pixel render_edge(const Camera& camera, int x, int y, Tile& tile) const;
+    [[nodiscard]] RgbaF colour_at(const Camera& camera, const glm::dvec3& p, Tile& tile) const;
+    [[nodiscard]] std::vector<const Source*> candidates_near(const Camera& camera, const glm::dvec3& p) const;
     [[nodiscard]] float visibility(const Source& source, const glm::dvec3& seen) const;
-    [[nodiscard]] RgbaF blend(const std::vector<Candidate>& candidates, const Camera& camera,
+    [[nodiscard]] RgbaF blend(std::span<const Source* const> candidates, const Camera& camera,
                               const glm::dvec3& p) const;
 
     const SignedVolume& surface_;

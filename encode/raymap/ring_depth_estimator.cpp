@@ -259,8 +259,8 @@ Status RingDepthEstimator::enforce_consistency(Progress* progress, std::vector<D
 void RingDepthEstimator::use_known_depths() {
     for_each_index(views_.size(), [&](std::size_t n) {
         DepthView& view = views_[n];
-        const SynthesizedView& known = *set_.synthesized[static_cast<std::size_t>(ring_.views[n])];
-        view.depth = known_depths(view.view, known.depth, reduction_, set_.upright.object_radius);
+        const PackedView& known = *set_.synthesized[static_cast<std::size_t>(ring_.views[n])];
+        view.depth = known_depths(view.view, known.depth(), reduction_, set_.upright.object_radius);
         view.occluders = Image<std::uint8_t>(view.depth.width(), view.depth.height(), 1);
     });
 }

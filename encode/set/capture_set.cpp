@@ -229,7 +229,7 @@ std::string name_of(const CaptureSet& set) {
 Result<Image<Rgba8>> read_upright_image(const CaptureSet& set, int view) {
     if (const auto found = set.completed.find(view); found != set.completed.end()) return Image<Rgba8>(found->second);
     const auto i = static_cast<std::size_t>(view);
-    if (!set.synthesized.empty() && set.synthesized[i] != nullptr) return Image<Rgba8>(set.synthesized[i]->image);
+    if (!set.synthesized.empty() && set.synthesized[i] != nullptr) return set.synthesized[i]->image();
     Result<Image<Rgba8>> image = read_captured_image(set, view);
     if (!image || !set.resampled) return image;
     return resample_image(set.upright.views[i].camera, set.captured.views[i].camera, *image);

@@ -7,6 +7,7 @@
 // linear light, to an upright camera at the same position (a rotation about the camera's centre, so that only rays
 // outside of the frame are lost).
 
+#include "encode/set/packed_view.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/rig.hpp"
@@ -25,12 +26,6 @@ namespace rs::encode {
 /// Completed images by view index: photos whose alpha matte lacked a part, with that part added.
 using CompletedImages = std::map<int, Image<Rgba8>>;
 
-/// A view made from other photos (encode/posed), with its surface's depth.
-struct SynthesizedView {
-    Image<Rgba8> image;
-    Image<float> depth;  // axial, in the rig's units; 0: no surface
-};
-
 struct CaptureSet {
     std::filesystem::path file;    // the transforms.json
     std::filesystem::path folder;  // of `file`
@@ -44,7 +39,7 @@ struct CaptureSet {
     int width = 0;  // px, of the upright images
     int height = 0;
     // One per view of the rig: nullptr if its image is a file; empty for photographed sets.
-    std::vector<std::shared_ptr<const SynthesizedView>> synthesized = {};
+    std::vector<std::shared_ptr<const PackedView>> synthesized = {};
     CompletedImages completed = {};     // returned by read_upright_image() instead of the file's contents
     std::vector<std::string> warnings;  // of the checks (set_checks.hpp)
 };

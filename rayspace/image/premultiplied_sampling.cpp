@@ -27,9 +27,8 @@ Rgba8 straight(const RgbaF& p) {
     return {srgb8_by_table(p.r / p.a), srgb8_by_table(p.g / p.a), srgb8_by_table(p.b / p.a), alpha};
 }
 
-}  // namespace
-
-Rgba8 sample_premultiplied(ConstImageView<Rgba8> image, double x, double y) {
+// The filtered sum, which may overshoot.
+RgbaF filtered(ConstImageView<Rgba8> image, double x, double y) {
     const double left = std::floor(x - 0.5);
     const double top = std::floor(y - 0.5);
     const auto weight_x = catmull_rom(static_cast<float>(x - 0.5 - left));
@@ -49,7 +48,21 @@ Rgba8 sample_premultiplied(ConstImageView<Rgba8> image, double x, double y) {
             sum.a += w * p.a;
         }
     }
-    return straight(sum);
+    return sum;
+}
+
+}  // namespace
+
+Rgba8 sample_premultiplied(ConstImageView<Rgba8> image, double x, double y) {
+    return straight(filtered(image, x, y));
+}
+
+RgbaF sample_linear(ConstImageView<Rgba8> image, double x, double y) {
+    const RgbaF sum = filtered(image, x, y);
+    if (sum.a <= 0) return {};
+    const float alpha = std::min(sum.a, 1.0F);
+    const auto limited = [&](float value) { return std::clamp(value / sum.a, 0.0F, 1.0F) * alpha; };
+    return {limited(sum.r), limited(sum.g), limited(sum.b), alpha};
 }
 
 PremultipliedImage::PremultipliedImage(ConstImageView<Rgba8> image) {

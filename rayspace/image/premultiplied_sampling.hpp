@@ -12,6 +12,9 @@ namespace rs {
 /// if alpha is 0. Any finite position within +-2^30. Thread-safe.
 Rgba8 sample_premultiplied(ConstImageView<Rgba8> image, double x, double y);
 
+/// The same in linear light times alpha, without rounding; no component is negative or exceeds alpha.
+RgbaF sample_linear(ConstImageView<Rgba8> image, double x, double y);
+
 /// An image prepared for sampling at most of its pixels: the same values to the bit, in a quarter of the time. Takes 16
 /// bytes per pixel of the bounding box of visible pixels.
 class PremultipliedImage {

@@ -96,10 +96,12 @@ public:
         coded_.board.books[1] = pack_codebooks(books_[1]);
         for_images(is_predicted, [&](std::size_t v) { encode_image(v); });
         if (progress_ != nullptr) progress_->finish();
-        const double psnr_db = measure_coded_psnr(
-            sources_, object_.width, object_.height, settings_.alpha_bits,
-            [&](std::size_t v) { return codec::plane_views(std::as_const(work_[v].reconstruction)); });
-        return {std::move(coded_), psnr_db};
+        std::vector<CodedError> errors(work_.size());
+        for_each_index(work_.size(), [&](std::size_t v) {
+            errors[v] = measure_coded_error(sources_[v], codec::plane_views(std::as_const(work_[v].reconstruction)),
+                                            object_.width, object_.height, settings_.alpha_bits);
+        });
+        return {std::move(coded_), coded_psnr_db(errors)};
     }
 
 private:

@@ -206,6 +206,7 @@ TEST(PosedRings, TheBallIsSeenFromStraightAbove) {
     options.rings.views = 24;
     const Result<CaptureSet> rings = with_rings(std::move(*set), options);
     ASSERT_TRUE(rings.ok()) << rings.error().message;
+    EXPECT_THAT(rings->warnings, testing::Contains(HasSubstr("within 2 degrees of a photo")));
     Result<BuiltObject> built = build_object(*rings, {});
     ASSERT_TRUE(built.ok()) << built.error().message;
     ASSERT_TRUE(validate_object(built->object, "ball").ok());

@@ -1,4 +1,5 @@
 #include "rayspace/image/premultiplied_sampling.hpp"
+#include "rayspace/image/linear_light.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +31,25 @@ TEST(PremultipliedImage, SamplesAreThoseOfThePlainFunction) {
             ASSERT_EQ(ready.sample(x, y), sample_premultiplied(image, x, y)) << x << ", " << y;
         }
         EXPECT_EQ(ready.sample(1e9, -1e9), Rgba8{});
+    }
+}
+
+TEST(SampleLinear, IsTheSameColourWithoutRounding) {
+    std::minstd_rand random(12);
+    std::uniform_int_distribution<int> code(0, 255);
+    const auto any = [&] { return static_cast<std::uint8_t>(code(random)); };
+    Image<Rgba8> image(15, 11);
+    for (Rgba8& pixel : image.pixels()) pixel = {any(), any(), any(), any()};
+    std::uniform_real_distribution<double> across(-3, 18), down(-3, 14);
+    for (int i = 0; i < 5'000; ++i) {
+        const double x = across(random), y = down(random);
+        const Rgba8 code8 = sample_premultiplied(image, x, y);
+        const RgbaF linear = sample_linear(image, x, y);
+        ASSERT_NEAR(linear.a, code8.a / 255.0F, 0.6 / 255);
+        ASSERT_TRUE(linear.r >= 0 && linear.g >= 0 && linear.b >= 0);
+        if (code8.a == 0) continue;
+        ASSERT_NEAR(srgb8_from_linear(linear.g / linear.a), code8.g, 1);
+        ASSERT_LE(linear.r, linear.a * 1.0001F);
     }
 }
 
