@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace rs::encode {
@@ -81,12 +82,12 @@ double angle_between(const Camera& a, const Camera& b) {
     return std::acos(std::clamp(glm::dot(glm::normalize(a.centre()), glm::normalize(b.centre())), -1.0, 1.0));
 }
 
-// Photos within the allowed angles, in directions as different as possible: each next one is the photo with the least
+// Cameras within the allowed angles, in directions as different as possible: each next one is the camera with the least
 // sum of its angle and of its nearness to those chosen.
-std::vector<int> choose_neighbours(std::span<const WorkPhoto> photos, int n, const PhotoDepthOptions& options) {
-    const auto camera = [&](int i) -> const Camera& { return photos[static_cast<std::size_t>(i)].camera; };
+std::vector<int> choose_neighbours(std::span<const Camera> cameras, int n, const PhotoDepthOptions& options) {
+    const auto camera = [&](int i) -> const Camera& { return cameras[static_cast<std::size_t>(i)]; };
     std::vector<int> near;
-    for (int i = 0; i < static_cast<int>(photos.size()); ++i) {
+    for (int i = 0; i < static_cast<int>(cameras.size()); ++i) {
         const double angle_deg = degrees(angle_between(camera(n), camera(i)));
         if (i != n && angle_deg >= options.least_angle_deg && angle_deg <= options.most_angle_deg) near.push_back(i);
     }
@@ -101,6 +102,22 @@ std::vector<int> choose_neighbours(std::span<const WorkPhoto> photos, int n, con
         chosen.push_back(*best);
         near.erase(best);
     }
+    return chosen;
+}
+
+// At most `most` cameras, ascending: each next one is the farthest in angle from those chosen.
+std::vector<int> spread_evenly(std::span<const Camera> cameras, int most) {
+    std::vector<double> nearest(cameras.size(), std::numeric_limits<double>::max());
+    std::vector<int> chosen;
+    while (chosen.size() < std::min(cameras.size(), static_cast<std::size_t>(most))) {
+        const auto next = std::ranges::max_element(nearest) - nearest.begin();
+        chosen.push_back(static_cast<int>(next));
+        for (std::size_t i = 0; i < cameras.size(); ++i) {
+            nearest[i] = std::min(nearest[i], angle_between(cameras[i], cameras[static_cast<std::size_t>(next)]));
+        }
+        nearest[static_cast<std::size_t>(next)] = -1;
+    }
+    std::ranges::sort(chosen);
     return chosen;
 }
 
@@ -470,11 +487,13 @@ std::vector<bool> find_unconfirmed(const std::vector<PhotoDepth>& all, std::size
 }
 
 // Removes depths that too few neighbours confirm.
-void remove_unconfirmed(std::vector<PhotoDepth>& depths, const std::vector<std::vector<int>>& neighbours,
-                        double tolerance, int confirming) {
+void remove_unconfirmed(std::vector<PhotoDepth>& depths, double voxel, const PhotoDepthOptions& options) {
+    std::vector<Camera> cameras;
+    for (const PhotoDepth& map : depths) cameras.push_back(map.camera);
     std::vector<std::vector<bool>> unconfirmed(depths.size());
     for_each_index(depths.size(), [&](std::size_t n) {
-        unconfirmed[n] = find_unconfirmed(depths, n, neighbours[n], tolerance, confirming);
+        const std::vector<int> neighbours = choose_neighbours(cameras, static_cast<int>(n), options);
+        unconfirmed[n] = find_unconfirmed(depths, n, neighbours, options.agreement * voxel, options.confirming);
     });
     for (std::size_t n = 0; n < depths.size(); ++n) {
         for (std::size_t i = 0; i < unconfirmed[n].size(); ++i) {
@@ -492,17 +511,20 @@ Result<std::vector<PhotoDepth>> estimate_photo_depths(std::span<const PosedPhoto
         const int longest = std::max(photos[n].image.width(), photos[n].image.height());
         work[n] = make_work_photo(photos[n], (longest + options.working_size_px - 1) / options.working_size_px);
     });
-    std::vector<std::vector<int>> neighbours(photos.size());
-    std::vector<PhotoDepth> depths(photos.size());
+    std::vector<Camera> cameras;
+    for (const WorkPhoto& photo : work) cameras.push_back(photo.camera);
+    const std::vector<int> references = spread_evenly(cameras, options.most_maps);
+    const int count = static_cast<int>(references.size());
+    std::vector<PhotoDepth> depths(references.size());
     const DepthSearch search(work, hull, options);
-    RS_TRY(for_each_in_parallel(static_cast<int>(photos.size()), "depth of photos", progress, [&](int i) -> Status {
+    RS_TRY(for_each_in_parallel(count, "depth of photos", progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
-        neighbours[n] = choose_neighbours(work, i, options);
-        depths[n] = {work[n].camera, search.depth_of(i, neighbours[n])};
+        const Camera& camera = cameras[static_cast<std::size_t>(references[n])];
+        depths[n] = {camera, search.depth_of(references[n], choose_neighbours(cameras, references[n], options))};
         return {};
     }));
     work.clear();
-    remove_unconfirmed(depths, neighbours, options.agreement * hull.grid().voxel, options.confirming);
+    remove_unconfirmed(depths, hull.grid().voxel, options);
     return depths;
 }
 
