@@ -13,7 +13,7 @@
 namespace rs::encode {
 
 struct PhotoDepthOptions {
-    int working_size_px = 640;  // photos whose longer side is longer are reduced by a whole factor
+    int working_size_px = 768;  // photos whose longer side is longer are reduced by a whole factor
     int most_maps = 160;        // of more photos, those spread most evenly have a depth map
     int neighbours = 6;
     double least_angle_deg = 5, most_angle_deg = 30;  // between two photos, seen from the object
