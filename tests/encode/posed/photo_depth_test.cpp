@@ -65,7 +65,7 @@ TEST(PhotoDepth, ABallWithinAHullThatIsTooLarge) {
     EXPECT_NEAR(static_cast<double>(cast(middle, middle)), ball_at(photos[20].camera, middle, middle), 0.02);
 }
 
-TEST(PhotoDepth, OfManyPhotosThoseSpreadMostEvenlyHaveMaps) {
+TEST(PhotoDepth, ManyPhotosGiveMapsOfThoseSpreadMostEvenly) {
     std::vector<PosedPhoto> photos = photos_of_ball(40, 120);
     const std::vector<PosedPhoto> others = photos;
     // Photos from almost the same directions add no maps.
