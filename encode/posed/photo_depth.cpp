@@ -17,7 +17,7 @@ namespace rs::encode {
 namespace {
 
 constexpr std::uint8_t kUnseen = 255;  // no cost: outside of the neighbour's frame
-constexpr int kTile_px = 32;           // side of the squares of pixels that are matched at the same levels
+constexpr int kMatchTile_px = 32;      // side of the squares of pixels that are matched at the same levels
 
 // A photo at the working size.
 struct WorkPhoto {
@@ -171,7 +171,7 @@ public:
     }
 
     // Writes kUnseen, or kMaxCost where the neighbour is transparent, or the cost of the correlation, for the pixels of
-    // `active`, at most kTile_px wide. The first of them is written to costs(0, 0).
+    // `active`, at most kMatchTile_px wide. The first of them is written to costs(0, 0).
     void match(const WorkPhoto& neighbour, double depth, const ObjectBox& active, Image<std::uint8_t>& costs) {
         const int width = active.width();
         const int left = active.left - radius_;
@@ -189,7 +189,7 @@ public:
 
 private:
     static constexpr int kMostWindow_px = 17;
-    static constexpr int kMost_px = kTile_px + kMostWindow_px - 1;
+    static constexpr int kMost_px = kMatchTile_px + kMostWindow_px - 1;
     static constexpr float kMiddle = 128;                     // subtracted from codes, for the precision of sums
     enum State : std::uint8_t { kOutside, kHidden, kValid };  // kHidden: outside of the neighbour's frame
 
@@ -391,11 +391,11 @@ private:
               const Levels& levels) const {
         const ObjectBox& box = volume.box;
         PlaneMatcher matcher(photo, options_.window_px);
-        std::vector<Image<std::uint8_t>> costs(neighbours.size(), Image<std::uint8_t>(kTile_px, kTile_px));
-        for (int top = box.top; top < box.bottom; top += kTile_px) {
-            for (int left = box.left; left < box.right; left += kTile_px) {
-                const ObjectBox tile{left, top, std::min(left + kTile_px, box.right),
-                                     std::min(top + kTile_px, box.bottom)};
+        std::vector<Image<std::uint8_t>> costs(neighbours.size(), Image<std::uint8_t>(kMatchTile_px, kMatchTile_px));
+        for (int top = box.top; top < box.bottom; top += kMatchTile_px) {
+            for (int left = box.left; left < box.right; left += kMatchTile_px) {
+                const ObjectBox tile{left, top, std::min(left + kMatchTile_px, box.right),
+                                     std::min(top + kMatchTile_px, box.bottom)};
                 for (int level = 0; level < levels.count; ++level) {
                     const ObjectBox active = active_box(volume, tile, level);
                     if (active.empty()) continue;
