@@ -1,6 +1,7 @@
 #include "encode/posed/photo_depth.hpp"
 
 #include "encode/raymap/semi_global.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/base/parallel_loop.hpp"
@@ -9,12 +10,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace rs::encode {
 namespace {
 
 constexpr std::uint8_t kUnseen = 255;  // no cost: outside of the neighbour's frame
+constexpr int kMatchTile_px = 32;      // side of the squares of pixels that are matched at the same levels
 
 // A photo at the working size.
 struct WorkPhoto {
@@ -22,6 +25,7 @@ struct WorkPhoto {
     Image<Rgba8> reduced;           // empty if the photo has the working size
     ConstImageView<Rgba8> image{};  // `reduced`, or the photo's own
     Image<float> luma;              // codes; 0 where the image is transparent
+    Image<std::uint8_t> inside;     // 1 inside of the matte
 };
 
 WorkPhoto make_work_photo(const PosedPhoto& photo, int reduction) {
@@ -36,6 +40,7 @@ WorkPhoto make_work_photo(const PosedPhoto& photo, int reduction) {
     if (reduction > 1) work.reduced = Image<Rgba8>(work.camera.width, work.camera.height);
     work.image = reduction > 1 ? work.reduced.view() : photo.image.view();
     work.luma = Image<float>(work.camera.width, work.camera.height);
+    work.inside = Image<std::uint8_t>(work.camera.width, work.camera.height);
     for (int y = 0; y < work.camera.height; ++y) {
         for (int x = 0; x < work.camera.width; ++x) {
             glm::dvec4 sum{0};
@@ -51,6 +56,7 @@ WorkPhoto make_work_photo(const PosedPhoto& photo, int reduction) {
             if (reduction > 1) {
                 work.reduced(x, y) = {code(mean.r), code(mean.g), code(mean.b), code(sum.w / (reduction * reduction))};
             }
+            work.inside(x, y) = work.image(x, y).a >= kInside ? 1 : 0;
             work.luma(x, y) = static_cast<float>(0.3 * mean.r + 0.6 * mean.g + 0.1 * mean.b);
         }
     }
@@ -76,12 +82,12 @@ double angle_between(const Camera& a, const Camera& b) {
     return std::acos(std::clamp(glm::dot(glm::normalize(a.centre()), glm::normalize(b.centre())), -1.0, 1.0));
 }
 
-// Photos within the allowed angles, in directions as different as possible: each next one is the photo with the least
+// Cameras within the allowed angles, in directions as different as possible: each next one is the camera with the least
 // sum of its angle and of its nearness to those chosen.
-std::vector<int> choose_neighbours(std::span<const WorkPhoto> photos, int n, const PhotoDepthOptions& options) {
-    const auto camera = [&](int i) -> const Camera& { return photos[static_cast<std::size_t>(i)].camera; };
+std::vector<int> choose_neighbours(std::span<const Camera> cameras, int n, const PhotoDepthOptions& options) {
+    const auto camera = [&](int i) -> const Camera& { return cameras[static_cast<std::size_t>(i)]; };
     std::vector<int> near;
-    for (int i = 0; i < static_cast<int>(photos.size()); ++i) {
+    for (int i = 0; i < static_cast<int>(cameras.size()); ++i) {
         const double angle_deg = degrees(angle_between(camera(n), camera(i)));
         if (i != n && angle_deg >= options.least_angle_deg && angle_deg <= options.most_angle_deg) near.push_back(i);
     }
@@ -96,6 +102,22 @@ std::vector<int> choose_neighbours(std::span<const WorkPhoto> photos, int n, con
         chosen.push_back(*best);
         near.erase(best);
     }
+    return chosen;
+}
+
+// At most `most` cameras, ascending: each next one is the farthest in angle from those chosen.
+std::vector<int> spread_evenly(std::span<const Camera> cameras, int most) {
+    std::vector<double> nearest(cameras.size(), std::numeric_limits<double>::max());
+    std::vector<int> chosen;
+    while (chosen.size() < std::min(cameras.size(), static_cast<std::size_t>(most))) {
+        const auto next = std::ranges::max_element(nearest) - nearest.begin();
+        chosen.push_back(static_cast<int>(next));
+        for (std::size_t i = 0; i < cameras.size(); ++i) {
+            nearest[i] = std::min(nearest[i], angle_between(cameras[i], cameras[static_cast<std::size_t>(next)]));
+        }
+        nearest[static_cast<std::size_t>(next)] = -1;
+    }
+    std::ranges::sort(chosen);
     return chosen;
 }
 
@@ -139,75 +161,50 @@ CostVolume make_volume(const WorkPhoto& photo, const SignedVolume& hull, const O
     return volume;
 }
 
-// Sums of the pixels that both photos show: their number, values, squares and products. Eight floats for SIMD.
-struct alignas(32) Moments {
-    std::array<float, 8> sums{};  // n, a, b, aa, bb, ab, 0, 0
-
-    void add(const Moments& other) {
-        for (std::size_t i = 0; i < 8; ++i) sums[i] += other.sums[i];
-    }
-    void subtract(const Moments& other) {
-        for (std::size_t i = 0; i < 8; ++i) sums[i] -= other.sums[i];
-    }
-    [[nodiscard]] std::uint8_t cost() const {
-        constexpr float kNoise = 9;    // variance, codes squared
-        constexpr float kOffset = 40;  // codes: photos of one exposure differ less
-        constexpr float kOffsetPart = 0.2F;
-        const float per = 1 / sums[0];
-        const float a = sums[1] * per;
-        const float b = sums[2] * per;
-        const float var_a = std::max(sums[3] * per - a * a, 0.0F) + kNoise;
-        const float var_b = std::max(sums[4] * per - b * b, 0.0F) + kNoise;
-        const float correlation = (sums[5] * per - a * b) / std::sqrt(var_a * var_b);
-        const float offset = std::min(std::abs(a - b) / kOffset, 1.0F);
-        const float cost = ((1 - kOffsetPart) * (1 - correlation) / 2 + kOffsetPart * offset) * kMaxCost;
-        return static_cast<std::uint8_t>(std::clamp(cost + 0.5F, 0.0F, static_cast<float>(kMaxCost)));
-    }
-};
-
-// Matching costs of one neighbour at one level, row by row with running sums over a square window.
+// Matching costs of one neighbour at one level, from sums over a square window. Sums are arrays over the pixels of a
+// row, which the compiler vectorizes.
 class PlaneMatcher {
 public:
-    PlaneMatcher(const WorkPhoto& photo, const ObjectBox& box, int window)
-        : photo_(photo), box_(box), radius_(window / 2), rows_(static_cast<std::size_t>(window)) {}
+    PlaneMatcher(const WorkPhoto& photo, int window)
+        : photo_(photo), radius_(window / 2), rows_(static_cast<std::size_t>(window)) {
+        RS_CHECK(window % 2 == 1 && window <= kMostWindow_px);
+    }
 
     // Writes kUnseen, or kMaxCost where the neighbour is transparent, or the cost of the correlation, for the pixels of
-    // `active`, which is within the box.
+    // `active`, at most kMatchTile_px wide. The first of them is written to costs(0, 0).
     void match(const WorkPhoto& neighbour, double depth, const ObjectBox& active, Image<std::uint8_t>& costs) {
-        const int left = std::max(active.left - radius_, box_.left);
-        const int right = std::min(active.right + radius_, box_.right);
-        const auto width = static_cast<std::size_t>(right - left);
-        for (auto& row : rows_) row.assign(width, Moments{});
-        columns_.assign(width, Moments{});
-        pixels_.resize(width);
-        states_.resize(rows_.size());
-        for (auto& row : states_) row.assign(width, kOutside);
+        const int width = active.width();
+        const int left = active.left - radius_;
         const Plane plane = plane_at(neighbour.camera, depth, left);
         for (int y = active.top - radius_; y < active.bottom + radius_; ++y) {
-            const auto slot = static_cast<std::size_t>(y - active.top + radius_) % rows_.size();
-            for (std::size_t x = 0; x < width; ++x) columns_[x].subtract(rows_[slot][x]);
-            if (y >= box_.top && y < box_.bottom) {
-                warp_row(neighbour, plane, left, y, states_[slot]);
-                sum_row(rows_[slot]);
-                for (std::size_t x = 0; x < width; ++x) columns_[x].add(rows_[slot][x]);
-            } else {
-                std::fill(rows_[slot].begin(), rows_[slot].end(), Moments{});
-            }
+            Row& row = row_of(y, active);
+            warp_row(neighbour, plane, left, y, width + 2 * radius_, row);
             const int done = y - radius_;
             if (done < active.top) continue;
-            const auto& states = states_[static_cast<std::size_t>(done - active.top + radius_) % rows_.size()];
-            for (int x = active.left; x < active.right; ++x) {
-                const auto i = static_cast<std::size_t>(x - left);
-                costs(x - box_.left, done - box_.top) = states[i] == kValid    ? columns_[i].cost()
-                                                        : states[i] == kHidden ? kUnseen
-                                                                               : static_cast<std::uint8_t>(kMaxCost);
-            }
+            const Row& middle = row_of(done, active);
+            sum_window(width);
+            write_costs(middle, width, &costs(0, done - active.top));
         }
     }
 
 private:
+    static constexpr int kMostWindow_px = 17;
+    static constexpr int kMost_px = kMatchTile_px + kMostWindow_px - 1;
     static constexpr float kMiddle = 128;                     // subtracted from codes, for the precision of sums
     enum State : std::uint8_t { kOutside, kHidden, kValid };  // kHidden: outside of the neighbour's frame
+
+    // Number of the pixels that both photos show, their values, squares and products.
+    struct Moments {
+        alignas(32) std::array<std::array<float, kMost_px>, 6> sums;  // n, a, b, aa, bb, ab
+    };
+    struct Row {
+        Moments moments;
+        std::array<State, kMost_px> states;
+    };
+
+    [[nodiscard]] Row& row_of(int y, const ObjectBox& active) {
+        return rows_[static_cast<std::size_t>(y - active.top + radius_) % rows_.size()];
+    }
 
     // Homogeneous pixel positions in the neighbour: of the first column of row 0, and per column and row.
     struct Plane {
@@ -225,61 +222,94 @@ private:
     }
 
     // Samples the neighbour where its camera sees the points of the plane.
-    void warp_row(const WorkPhoto& neighbour, const Plane& plane, int left, int y, std::vector<State>& states) {
+    void warp_row(const WorkPhoto& neighbour, const Plane& plane, int left, int y, int width, Row& row) const {
+        for (auto& sums : row.moments.sums) std::fill_n(sums.begin(), width, 0.0F);
+        std::fill_n(row.states.begin(), width, kOutside);
+        if (y < 0 || y >= photo_.image.height()) return;
         const Camera& to = neighbour.camera;
-        glm::dvec3 p = plane.first + static_cast<double>(y) * plane.per_row;
-        for (std::size_t i = 0; i < pixels_.size(); ++i, p += plane.per_column) {
-            pixels_[i] = Moments{};
-            states[i] = kOutside;
-            const int x = left + static_cast<int>(i);
-            if (photo_.image(x, y).a < kInside) continue;
-            const auto px = static_cast<float>(p.x / p.z) - 0.5F;
-            const auto py = static_cast<float>(p.y / p.z) - 0.5F;
-            if (p.z <= 0 || !(px >= 0 && py >= 0) || px >= static_cast<float>(to.width - 1) ||
-                py >= static_cast<float>(to.height - 1)) {
-                states[i] = kHidden;
+        const glm::vec3 first(plane.first + static_cast<double>(y) * plane.per_row);
+        const glm::vec3 step(plane.per_column);
+        const auto right_most = static_cast<float>(to.width - 1);
+        const auto lowest = static_cast<float>(to.height - 1);
+        const int end = std::min(width, photo_.image.width() - left);
+        for (int i = std::max(-left, 0); i < end; ++i) {
+            if (photo_.inside(left + i, y) == 0) continue;
+            const auto n = static_cast<std::size_t>(i);
+            const glm::vec3 p = first + static_cast<float>(i) * step;
+            const float per_depth = 1 / p.z;
+            const float px = p.x * per_depth - 0.5F;
+            const float py = p.y * per_depth - 0.5F;
+            if (p.z <= 0 || !(px >= 0 && py >= 0) || px >= right_most || py >= lowest) {
+                row.states[n] = kHidden;
                 continue;
             }
             const auto ix = static_cast<int>(px);
             const auto iy = static_cast<int>(py);
             const float fx = px - static_cast<float>(ix);
             const float fy = py - static_cast<float>(iy);
-            if (neighbour.image(ix + (fx >= 0.5F ? 1 : 0), iy + (fy >= 0.5F ? 1 : 0)).a < kInside) continue;
+            if (neighbour.inside(ix + static_cast<int>(fx + 0.5F), iy + static_cast<int>(fy + 0.5F)) == 0) continue;
             const float* const upper = &neighbour.luma(ix, iy);
             const float* const lower = upper + to.width;
             const float above = upper[0] + fx * (upper[1] - upper[0]);
             const float b = above + fy * (lower[0] + fx * (lower[1] - lower[0]) - above) - kMiddle;
-            const float a = photo_.luma(x, y) - kMiddle;
-            pixels_[i].sums = {1, a, b, a * a, b * b, a * b, 0, 0};
-            states[i] = kValid;
+            const float a = photo_.luma(left + i, y) - kMiddle;
+            const float values[] = {1, a, b, a * a, b * b, a * b};
+            for (std::size_t moment = 0; moment < 6; ++moment) row.moments.sums[moment][n] = values[moment];
+            row.states[n] = kValid;
         }
     }
 
-    void sum_row(std::vector<Moments>& out) const {
-        Moments sum;
-        const auto radius = static_cast<std::size_t>(radius_);
-        const std::size_t width = pixels_.size();
-        for (std::size_t x = 0; x < std::min(radius, width); ++x) sum.add(pixels_[x]);
-        for (std::size_t x = 0; x < width; ++x) {
-            if (x + radius < width) sum.add(pixels_[x + radius]);
-            if (x > radius) sum.subtract(pixels_[x - radius - 1]);
-            out[x] = sum;
+    // Sets window_ to the sums over the window around each pixel.
+    void sum_window(int width) {
+        for (std::size_t moment = 0; moment < 6; ++moment) {
+            std::array<float, kMost_px> column;
+            const int with_rim = width + 2 * radius_;
+            std::copy_n(rows_[0].moments.sums[moment].begin(), with_rim, column.begin());
+            for (std::size_t row = 1; row < rows_.size(); ++row)
+                add(with_rim, rows_[row].moments.sums[moment].data(), column.data());
+            float* const out = window_.sums[moment].data();
+            std::copy_n(column.begin(), width, out);
+            for (int shift = 1; shift <= 2 * radius_; ++shift) add(width, column.data() + shift, out);
+        }
+    }
+    static void add(int count, const float* values, float* sums) {
+        for (int i = 0; i < count; ++i) sums[i] += values[i];
+    }
+
+    void write_costs(const Row& middle, int width, std::uint8_t* costs) const {
+        constexpr float kNoise = 9;    // variance, codes squared
+        constexpr float kOffset = 40;  // codes: photos of one exposure differ less
+        constexpr float kOffsetPart = 0.2F;
+        const auto& [count, sum_a, sum_b, sum_aa, sum_bb, sum_ab] = window_.sums;
+        std::array<float, kMost_px> found;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(width); ++i) {
+            const float per = 1 / std::max(count[i], 1.0F);
+            const float a = sum_a[i] * per;
+            const float b = sum_b[i] * per;
+            const float var_a = std::max(sum_aa[i] * per - a * a, 0.0F) + kNoise;
+            const float var_b = std::max(sum_bb[i] * per - b * b, 0.0F) + kNoise;
+            const float correlation = (sum_ab[i] * per - a * b) / std::sqrt(var_a * var_b);
+            const float offset = std::min(std::abs(a - b) / kOffset, 1.0F);
+            const float cost = ((1 - kOffsetPart) * (1 - correlation) / 2 + kOffsetPart * offset) * kMaxCost;
+            found[i] = std::min(std::max(cost + 0.5F, 0.0F), static_cast<float>(kMaxCost));
+        }
+        for (std::size_t i = 0; i < static_cast<std::size_t>(width); ++i) {
+            const State state = middle.states[i + static_cast<std::size_t>(radius_)];
+            costs[i] = state == kValid    ? static_cast<std::uint8_t>(found[i])
+                       : state == kHidden ? kUnseen
+                                          : static_cast<std::uint8_t>(kMaxCost);
         }
     }
 
     const WorkPhoto& photo_;
-    const ObjectBox& box_;
     int radius_;
-    std::vector<std::vector<Moments>> rows_;  // summed along the row; the last `window` rows
-    std::vector<std::vector<State>> states_;
-    std::vector<Moments> columns_;  // sums of rows_
-    std::vector<Moments> pixels_;   // of one row
+    std::vector<Row> rows_;  // the last `window` rows
+    Moments window_{};
 };
 
-// Mean of the lower half of the neighbours' costs: a surface is occluded in some of them.
-std::uint8_t best_half(std::span<std::uint8_t> costs) {
-    std::ranges::sort(costs);
-    const auto seen = static_cast<std::size_t>(std::ranges::lower_bound(costs, kUnseen) - costs.begin());
+// Mean of the lower half of the neighbours' costs, in ascending order: a surface is occluded in some of them.
+std::uint8_t best_half(std::span<const std::uint8_t> costs) {
+    const auto seen = static_cast<std::size_t>(std::ranges::find(costs, kUnseen) - costs.begin());
     if (seen == 0) return kMaxCost / 2;
     const std::size_t used = (seen + 1) / 2;
     int sum = 0;
@@ -340,12 +370,11 @@ private:
         return levels;
     }
 
-    // The box of the pixels that have a level; empty if there are none.
-    static ObjectBox active_box(const CostVolume& volume, int level) {
-        const ObjectBox& box = volume.box;
-        ObjectBox active{box.right, box.bottom, box.left, box.top};
-        for (int x = box.left; x < box.right; ++x) {
-            for (int y = box.top; y < box.bottom; ++y) {
+    // The box of the pixels of `tile` that have a level; empty if there are none.
+    static ObjectBox active_box(const CostVolume& volume, const ObjectBox& tile, int level) {
+        ObjectBox active{tile.right, tile.bottom, tile.left, tile.top};
+        for (int x = tile.left; x < tile.right; ++x) {
+            for (int y = tile.top; y < tile.bottom; ++y) {
                 const PixelLevels& pixel = volume.of(x, y);
                 if (level < pixel.first || level >= pixel.first + pixel.count) continue;
                 active.left = std::min(active.left, x);
@@ -357,26 +386,54 @@ private:
         return active;
     }
 
+    // Pixels of a tile have similar levels, so that few others are matched with them.
     void fill(CostVolume& volume, const WorkPhoto& photo, const std::vector<int>& neighbours,
               const Levels& levels) const {
         const ObjectBox& box = volume.box;
-        PlaneMatcher matcher(photo, box, options_.window_px);
-        std::vector<Image<std::uint8_t>> costs(neighbours.size(), Image<std::uint8_t>(box.width(), box.height()));
-        std::vector<std::uint8_t> one(neighbours.size());
-        for (int level = 0; level < levels.count; ++level) {
-            const ObjectBox active = active_box(volume, level);
-            if (active.empty()) continue;
-            for (std::size_t i = 0; i < neighbours.size(); ++i) {
-                const WorkPhoto& neighbour = photos_[static_cast<std::size_t>(neighbours[i])];
-                matcher.match(neighbour, levels.low + level * levels.step, active, costs[i]);
-            }
-            for (int x = active.left; x < active.right; ++x) {
-                for (int y = active.top; y < active.bottom; ++y) {
-                    const PixelLevels& pixel = volume.of(x, y);
-                    if (level < pixel.first || level >= pixel.first + pixel.count) continue;
-                    for (std::size_t i = 0; i < neighbours.size(); ++i) one[i] = costs[i](x - box.left, y - box.top);
-                    volume.costs[pixel.begin + static_cast<std::size_t>(level - pixel.first)] = best_half(one);
+        PlaneMatcher matcher(photo, options_.window_px);
+        std::vector<Image<std::uint8_t>> costs(neighbours.size(), Image<std::uint8_t>(kMatchTile_px, kMatchTile_px));
+        for (int top = box.top; top < box.bottom; top += kMatchTile_px) {
+            for (int left = box.left; left < box.right; left += kMatchTile_px) {
+                const ObjectBox tile{left, top, std::min(left + kMatchTile_px, box.right),
+                                     std::min(top + kMatchTile_px, box.bottom)};
+                for (int level = 0; level < levels.count; ++level) {
+                    const ObjectBox active = active_box(volume, tile, level);
+                    if (active.empty()) continue;
+                    for (std::size_t i = 0; i < neighbours.size(); ++i) {
+                        const WorkPhoto& neighbour = photos_[static_cast<std::size_t>(neighbours[i])];
+                        matcher.match(neighbour, levels.low + level * levels.step, active, costs[i]);
+                    }
+                    store(costs, active, level, volume);
                 }
+            }
+        }
+    }
+
+    // Sorts the neighbours' costs of each pixel, by exchanges of whole rows, which the compiler vectorizes.
+    static void sort_costs(std::vector<Image<std::uint8_t>>& costs, int y, int width) {
+        for (std::size_t last = costs.size() - 1; last > 0; --last) {
+            for (std::size_t i = 0; i < last; ++i) {
+                std::uint8_t* const a = &costs[i](0, y);
+                std::uint8_t* const b = &costs[i + 1](0, y);
+                for (int x = 0; x < width; ++x) {
+                    const std::uint8_t lower = std::min(a[x], b[x]);
+                    b[x] = std::max(a[x], b[x]);
+                    a[x] = lower;
+                }
+            }
+        }
+    }
+
+    // Sets the costs of a level from those of the neighbours, whose pixel (0, 0) is the first of `active`.
+    static void store(std::vector<Image<std::uint8_t>>& costs, const ObjectBox& active, int level, CostVolume& volume) {
+        std::vector<std::uint8_t> one(costs.size());
+        for (int y = active.top; y < active.bottom; ++y) {
+            sort_costs(costs, y - active.top, active.width());
+            for (int x = active.left; x < active.right; ++x) {
+                const PixelLevels& pixel = volume.of(x, y);
+                if (level < pixel.first || level >= pixel.first + pixel.count) continue;
+                for (std::size_t i = 0; i < costs.size(); ++i) one[i] = costs[i](x - active.left, y - active.top);
+                volume.costs[pixel.begin + static_cast<std::size_t>(level - pixel.first)] = best_half(one);
             }
         }
     }
@@ -430,11 +487,13 @@ std::vector<bool> find_unconfirmed(const std::vector<PhotoDepth>& all, std::size
 }
 
 // Removes depths that too few neighbours confirm.
-void remove_unconfirmed(std::vector<PhotoDepth>& depths, const std::vector<std::vector<int>>& neighbours,
-                        double tolerance, int confirming) {
+void remove_unconfirmed(std::vector<PhotoDepth>& depths, double voxel, const PhotoDepthOptions& options) {
+    std::vector<Camera> cameras;
+    for (const PhotoDepth& map : depths) cameras.push_back(map.camera);
     std::vector<std::vector<bool>> unconfirmed(depths.size());
     for_each_index(depths.size(), [&](std::size_t n) {
-        unconfirmed[n] = find_unconfirmed(depths, n, neighbours[n], tolerance, confirming);
+        const std::vector<int> neighbours = choose_neighbours(cameras, static_cast<int>(n), options);
+        unconfirmed[n] = find_unconfirmed(depths, n, neighbours, options.agreement * voxel, options.confirming);
     });
     for (std::size_t n = 0; n < depths.size(); ++n) {
         for (std::size_t i = 0; i < unconfirmed[n].size(); ++i) {
@@ -452,17 +511,20 @@ Result<std::vector<PhotoDepth>> estimate_photo_depths(std::span<const PosedPhoto
         const int longest = std::max(photos[n].image.width(), photos[n].image.height());
         work[n] = make_work_photo(photos[n], (longest + options.working_size_px - 1) / options.working_size_px);
     });
-    std::vector<std::vector<int>> neighbours(photos.size());
-    std::vector<PhotoDepth> depths(photos.size());
+    std::vector<Camera> cameras;
+    for (const WorkPhoto& photo : work) cameras.push_back(photo.camera);
+    const std::vector<int> references = spread_evenly(cameras, options.most_maps);
+    const int count = static_cast<int>(references.size());
+    std::vector<PhotoDepth> depths(references.size());
     const DepthSearch search(work, hull, options);
-    RS_TRY(for_each_in_parallel(static_cast<int>(photos.size()), "depth of photos", progress, [&](int i) -> Status {
+    RS_TRY(for_each_in_parallel(count, "depth of photos", progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
-        neighbours[n] = choose_neighbours(work, i, options);
-        depths[n] = {work[n].camera, search.depth_of(i, neighbours[n])};
+        const Camera& camera = cameras[static_cast<std::size_t>(references[n])];
+        depths[n] = {camera, search.depth_of(references[n], choose_neighbours(cameras, references[n], options))};
         return {};
     }));
     work.clear();
-    remove_unconfirmed(depths, neighbours, options.agreement * hull.grid().voxel, options.confirming);
+    remove_unconfirmed(depths, hull.grid().voxel, options);
     return depths;
 }
 

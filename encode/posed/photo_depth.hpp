@@ -13,7 +13,8 @@
 namespace rs::encode {
 
 struct PhotoDepthOptions {
-    int working_size_px = 640;  // photos whose longer side is longer are reduced by a whole factor
+    int working_size_px = 768;  // photos whose longer side is longer are reduced by a whole factor
+    int most_maps = 160;        // of more photos, those spread most evenly have a depth map
     int neighbours = 6;
     double least_angle_deg = 5, most_angle_deg = 30;  // between two photos, seen from the object
     double level_px = 0.75;  // a point's move from one level to the next in the neighbour where it moves most
@@ -29,9 +30,8 @@ struct PhotoDepth {
     Image<float> depth;  // axial, in the rig's units; 0 where unknown or not confirmed
 };
 
-/// Estimates the depth of each photo. Memory: 8 bytes per pixel of the working size, 4 more if
-/// photos are reduced, and for each thread about 3 bytes
-/// per object pixel and level.
+/// Estimates depth maps of the photos, in their order. Memory: 9 bytes per pixel of the working size, 4 more if photos
+/// are reduced, and for each thread about 3 bytes per object pixel and level.
 Result<std::vector<PhotoDepth>> estimate_photo_depths(std::span<const PosedPhoto> photos, const SignedVolume& hull,
                                                       const PhotoDepthOptions& options, Progress* progress = nullptr);
 

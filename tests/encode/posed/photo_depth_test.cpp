@@ -65,6 +65,27 @@ TEST(PhotoDepth, ABallWithinAHullThatIsTooLarge) {
     EXPECT_NEAR(static_cast<double>(cast(middle, middle)), ball_at(photos[20].camera, middle, middle), 0.02);
 }
 
+TEST(PhotoDepth, ManyPhotosGiveMapsOfThoseSpreadMostEvenly) {
+    std::vector<PosedPhoto> photos = photos_of_ball(40, 120);
+    const std::vector<PosedPhoto> others = photos;
+    // Photos from almost the same directions add no maps.
+    for (const PosedPhoto& photo : others) {
+        photos.push_back(photo);
+        photos.back().camera.world_from_camera[3] += glm::dvec4(1e-4, 0, 0, 0);
+    }
+    const SignedVolume hull = ball_volume(1.05, 80);
+    const Result<std::vector<PhotoDepth>> depths = estimate_photo_depths(photos, hull, {.most_maps = 40});
+    ASSERT_TRUE(depths.ok()) << depths.error().message;
+    ASSERT_EQ(depths->size(), 40U);
+    for (std::size_t i = 0; i < depths->size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            EXPECT_GT(glm::distance((*depths)[i].camera.centre(), (*depths)[j].camera.centre()), 0.01);
+        }
+    }
+    const Image<float> cast = cast_depth(fuse_depths(hull, *depths), photos[20].camera);
+    EXPECT_NEAR(static_cast<double>(cast(60, 60)), ball_at(photos[20].camera, 60, 60), 0.02);
+}
+
 TEST(DepthFusion, WhatNoPhotoShowsStaysSolid) {
     const SignedVolume hull = ball_volume(0.8, 60);
     const SignedVolume fused = fuse_depths(hull, {});
