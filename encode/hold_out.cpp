@@ -22,19 +22,35 @@ double elevation_rad(const Rig& rig, int view) {
     return std::atan2(centre.y, std::hypot(centre.x, centre.z));
 }
 
+struct LeadingNumber {
+    int value = -1;  // -1: none
+    std::string_view ending;
+};
+LeadingNumber leading_number(std::string_view text) {
+    LeadingNumber number;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number.value);
+    if (error != std::errc{}) return {};
+    number.ending = {rest, static_cast<std::size_t>(end - rest)};
+    return number;
+}
+
 }  // namespace
 
-Result<int> parse_hold_out(const std::string& text) {
-    constexpr std::string_view kStart = "every-";
-    int every = 0;
-    if (text.starts_with(kStart)) {
-        const char* const end = text.data() + text.size();
-        const auto [rest, error] = std::from_chars(text.data() + kStart.size(), end, every);
-        const std::string_view ending(rest, static_cast<std::size_t>(end - rest));
+Result<HoldOutRule> parse_hold_out(const std::string& text) {
+    constexpr std::string_view kEvery = "every-", kTurn = "turn=";
+    if (text.starts_with(kEvery)) {
+        const auto [every, ending] = leading_number(std::string_view(text).substr(kEvery.size()));
         const bool ordinal = ending == "st" || ending == "nd" || ending == "rd" || ending == "th";
-        if (error == std::errc{} && ordinal && every >= 2) return every;
+        if (ordinal && every >= 2) return HoldOutRule{HoldOutKind::kEveryNth, every};
     }
-    return Error{"--hold-out " + text + ": is not every-Nth; use every-2nd, every-3rd and so on"};
+    if (text.starts_with(kTurn)) {
+        const auto [turn, ending] = leading_number(std::string_view(text).substr(kTurn.size()));
+        if (ending.empty() && turn >= 0) return HoldOutRule{HoldOutKind::kWholeTurn, turn};
+    }
+    return Error{"--hold-out " + text +
+                 ": is neither every-Nth nor turn=N; use every-2nd, every-3rd and so on, or "
+                 "turn=0, turn=1 and so on"};
 }
 
 Result<HoldOut> choose_hold_out(const Rig& rig, int every, const std::string& where) {
@@ -55,6 +71,29 @@ Result<HoldOut> choose_hold_out(const Rig& rig, int every, const std::string& wh
     std::sort(chosen.kept.begin(), chosen.kept.end());
     std::sort(chosen.held.begin(), chosen.held.end());
     return chosen;
+}
+
+Result<HoldOut> hold_out_turn(const Rig& rig, int turn, const std::string& where) {
+    HoldOut chosen;
+    for (std::size_t i = 0; i < rig.views.size(); ++i) {
+        const auto key = rig.views[i].extras.find("turn");
+        const bool is_held = key != rig.views[i].extras.end() && *key == turn;
+        (is_held ? chosen.held : chosen.kept).push_back(static_cast<int>(i));
+    }
+    if (chosen.held.empty()) {
+        return Error{where + ": no frame has \"turn\": " + std::to_string(turn) +
+                     "; sets of several turns have it, from 0 on; use every-2nd for others"};
+    }
+    if (chosen.kept.size() < 2) {
+        return Error{where + ": fewer than two views are not of turn " + std::to_string(turn) +
+                     "; use every-2nd for a set of one turn"};
+    }
+    return chosen;
+}
+
+Result<HoldOut> choose_hold_out(const Rig& rig, const HoldOutRule& rule, const std::string& where) {
+    return rule.kind == HoldOutKind::kWholeTurn ? hold_out_turn(rig, rule.number, where)
+                                                : choose_hold_out(rig, rule.number, where);
 }
 
 int nearest_kept_view(const Rig& rig, const HoldOut& hold_out, int view) {

@@ -32,14 +32,31 @@ struct HoldOut {
     std::vector<int> held;  // ascending; no view is in both
 };
 
-/// Parses "every-Nth" ("every-2nd", "every-3rd", "every-10th"; the ordinal's ending is not checked), N >= 2.
-Result<int> parse_hold_out(const std::string& text);
+enum class HoldOutKind {
+    kEveryNth,   // one of `number` (>= 2) neighbouring views of a ring
+    kWholeTurn,  // all views of turn `number`, from 0 on
+};
+struct HoldOutRule {
+    HoldOutKind kind = HoldOutKind::kEveryNth;
+    int number = 2;
+};
+
+/// Parses "every-Nth" ("every-2nd", "every-3rd", "every-10th"; the ordinal's ending is not checked), N >= 2, and
+/// "turn=N", N >= 0.
+Result<HoldOutRule> parse_hold_out(const std::string& text);
 
 /// Divides each ring, in turning order, into runs of `every` (>= 2) consecutive views. The view at index every / 2 of
 /// each run is held out, so that its neighbours are kept. All views of an incomplete last run may be kept. Fails if
 /// fewer than two views of the rig would be kept, or none held out.
 /// \param where  name of the set for errors.
 Result<HoldOut> choose_hold_out(const Rig& rig, int every, const std::string& where);
+
+/// Holds out the views whose frames have the key "turn" with this value, as in sets of several turns (rs-capture
+/// import). Fails as choose_hold_out(), and if no frame has it.
+Result<HoldOut> hold_out_turn(const Rig& rig, int turn, const std::string& where);
+
+/// One of the above, by the rule.
+Result<HoldOut> choose_hold_out(const Rig& rig, const HoldOutRule& rule, const std::string& where);
 
 /// The kept view that a spin viewer would show for `view`: the view nearest in azimuth of the kept ring nearest in
 /// elevation; of two equally near views, the first in turning order.

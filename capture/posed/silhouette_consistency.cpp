@@ -11,14 +11,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <utility>
 
 namespace rs::capture {
 namespace {
 
-constexpr int kColourLevels = 32;       // per channel
 constexpr glm::dvec3 kUpAxis{0, 1, 0};  // of the voxels' frame: their sides are parallel to the world's axes
 
 // Parameters of one round.
@@ -64,23 +62,6 @@ VisualHull surface_of(VisualHull hull) {
         return std::ranges::all_of(beside, [&](std::ptrdiff_t n) { return is_filled[static_cast<std::size_t>(n)]; });
     });
     return hull;
-}
-
-// Silhouette of the hull: each voxel is a square of its projected side.
-cv::Mat1b project_hull(const Camera& camera, const VisualHull& hull) {
-    cv::Mat1b silhouette(camera.height, camera.width, std::uint8_t{0});
-    const double side = std::max({hull.step.x, hull.step.y, hull.step.z});
-    for (const glm::dvec3& p : hull.voxels) {
-        const glm::dvec3 at = camera.project(p);
-        if (!(at.z > 0 && at.x >= -64 && at.y >= -64 && at.x < camera.width + 64 && at.y < camera.height + 64))
-            continue;
-        const double reach = 0.5 * std::min(side * camera.fl_x / at.z, 64.0);
-        const int left = static_cast<int>(std::floor(at.x - reach)), top = static_cast<int>(std::floor(at.y - reach));
-        const int right = static_cast<int>(std::ceil(at.x + reach)), bottom = static_cast<int>(std::ceil(at.y + reach));
-        const cv::Rect inside = cv::Rect(left, top, right - left, bottom - top) & cv::Rect({0, 0}, silhouette.size());
-        if (!inside.empty()) silhouette(inside) = 255;
-    }
-    return silhouette;
 }
 
 // Distance from the contour of a mask: positive inside. At the frame's border a mask continues.
@@ -198,24 +179,29 @@ double overlap_of(const cv::Mat1b& mask, const cv::Mat1f& distance) {
 
 }  // namespace
 
-ColourHistogram::ColourHistogram() : density_(kColourLevels * kColourLevels * kColourLevels) {}
+ColourHistogram::ColourHistogram(int bits) : bits_(bits), density_(std::size_t{1} << (3 * bits)) {}
 
-void ColourHistogram::add(const ColourHistogram& other) {
-    std::transform(density_.begin(), density_.end(), other.density_.begin(), density_.begin(), std::plus<>());
+void ColourHistogram::add(const ColourHistogram& other, float weight) {
+    std::ranges::transform(density_, other.density_, density_.begin(),
+                           [&](float a, float b) { return a + weight * b; });
 }
 
-void ColourHistogram::normalize() {
-    constexpr std::array<std::size_t, 3> kStrides{1, kColourLevels, kColourLevels * kColourLevels};
+void ColourHistogram::smooth() {
+    const std::size_t levels = std::size_t{1} << bits_;
     std::vector<float> before;
-    for (const std::size_t stride : kStrides) {
+    for (const std::size_t stride : {std::size_t{1}, levels, levels * levels}) {
         before = density_;
         for (std::size_t i = 0; i < density_.size(); ++i) {
-            const std::size_t level = i / stride % kColourLevels;
+            const std::size_t level = i / stride % levels;
             const float below = before[level > 0 ? i - stride : i];
-            const float above = before[level + 1 < kColourLevels ? i + stride : i];
+            const float above = before[level + 1 < levels ? i + stride : i];
             density_[i] = 0.25F * below + 0.5F * before[i] + 0.25F * above;
         }
     }
+}
+
+void ColourHistogram::normalize() {
+    smooth();
     const double sum = std::accumulate(density_.begin(), density_.end(), 0.0);
     if (sum > 0) {
         for (float& density : density_) density = static_cast<float>(density / sum);

@@ -27,22 +27,25 @@ struct SilhouetteView {
     Image<Rgba8> photo;  ///< as large as hull.camera states; alpha 0: not in the photo
 };
 
-/// Density of sRGB colours: 32 levels per channel, smoothed.
+/// Density of sRGB colours: 2^bits levels per channel, smoothed.
 class ColourHistogram {
 public:
-    ColourHistogram();
+    explicit ColourHistogram(int bits = 5);
     void add(const Rgba8& colour) { density_[index_of(colour)] += 1; }
-    /// Adds the counts of another one; before normalize().
-    void add(const ColourHistogram& other);
+    /// Adds the counts of another one of as many levels; before smooth() and normalize().
+    void add(const ColourHistogram& other, float weight = 1);
+    /// Spreads each count over the neighbouring levels.
+    void smooth();
     /// Smooths and scales to a sum of 1.
     void normalize();
     [[nodiscard]] float operator()(const Rgba8& colour) const { return density_[index_of(colour)]; }
 
 private:
-    static std::size_t index_of(const Rgba8& colour) {
-        return (static_cast<std::size_t>(colour.r >> 3) << 10) + (static_cast<std::size_t>(colour.g >> 3) << 5) +
-               static_cast<std::size_t>(colour.b >> 3);
+    [[nodiscard]] std::size_t index_of(const Rgba8& colour) const {
+        const auto level = [&](std::uint8_t code) { return static_cast<std::size_t>(code >> (8 - bits_)); };
+        return (((level(colour.r) << bits_) + level(colour.g)) << bits_) + level(colour.b);
     }
+    int bits_;
     std::vector<float> density_;
 };
 

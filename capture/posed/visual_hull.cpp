@@ -231,4 +231,20 @@ Result<BoundingCylinder> carve_bounding_cylinder(std::span<const HullView> views
     return cylinder;
 }
 
+cv::Mat1b project_hull(const Camera& camera, const VisualHull& hull) {
+    cv::Mat1b silhouette(camera.height, camera.width, std::uint8_t{0});
+    const double side = std::max({hull.step.x, hull.step.y, hull.step.z});
+    for (const glm::dvec3& p : hull.voxels) {
+        const glm::dvec3 at = camera.project(p);
+        if (!(at.z > 0 && at.x >= -64 && at.y >= -64 && at.x < camera.width + 64 && at.y < camera.height + 64))
+            continue;
+        const double reach = 0.5 * std::min(side * camera.fl_x / at.z, 64.0);
+        const int left = static_cast<int>(std::floor(at.x - reach)), top = static_cast<int>(std::floor(at.y - reach));
+        const int right = static_cast<int>(std::ceil(at.x + reach)), bottom = static_cast<int>(std::ceil(at.y + reach));
+        const cv::Rect inside = cv::Rect(left, top, right - left, bottom - top) & cv::Rect({0, 0}, silhouette.size());
+        if (!inside.empty()) silhouette(inside) = 255;
+    }
+    return silhouette;
+}
+
 }  // namespace rs::capture

@@ -50,6 +50,9 @@ struct HullCarving {
 Result<VisualHull> carve_visual_hull(std::span<const HullView> views, const glm::dvec3& target, const glm::dvec3& up,
                                      const HullCarving& carving = {});
 
+/// Silhouette of the hull, 255 = object: each voxel is a square of its projected side.
+cv::Mat1b project_hull(const Camera& camera, const VisualHull& hull);
+
 /// Bounding cylinder about `up`.
 struct BoundingCylinder {
     glm::dvec3 centre{0};  ///< on the axis, at half the height

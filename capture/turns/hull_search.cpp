@@ -256,6 +256,29 @@ double silhouette_overlap(std::span<const glm::dvec3> surface, const PlacedTurn&
     return sum / static_cast<double>(masks.masks.size());
 }
 
+DoubtfulMasks find_doubtful_masks(std::span<const HullView> views) {
+    constexpr double kDoubtfulFactor = 1.25;           // of areas
+    constexpr HullCarving kCarving{64, 0.1, 1.0 / 3};  // few of the masks may be wrong
+    const Result<glm::dvec3> target = common_target(views);
+    if (!target) return {};
+    const Result<VisualHull> hull = carve_visual_hull(views, *target, {0, 1, 0}, kCarving);
+    if (!hull) return {};
+    std::vector<double> ratios;
+    for (const HullView& view : views) {
+        const double expected = cv::countNonZero(project_hull(view.camera, *hull));
+        ratios.push_back(cv::countNonZero(view.mask) / std::max(1.0, expected));
+    }
+    std::vector<double> sorted = ratios;
+    std::ranges::nth_element(sorted, sorted.begin() + std::ssize(sorted) / 2);
+    const double usual = sorted[sorted.size() / 2];
+    DoubtfulMasks found;
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+        if (ratios[i] * kDoubtfulFactor < usual) found.small.push_back(i);
+        if (ratios[i] > usual * kDoubtfulFactor) found.large.push_back(i);
+    }
+    return found;
+}
+
 HullMatch search_by_hull(const HullSearch& search) {
     const AimScorer scorer(search);
     const std::vector<Aim> coarse = coarse_aims(search, scorer);

@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 #include <opencv2/core.hpp>
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,13 @@ Result<std::vector<glm::dvec3>> hull_surface(std::span<const HullView> views);
 
 /// Mean over the views of intersection over union of a mask and the projected hull.
 double silhouette_overlap(std::span<const glm::dvec3> surface, const PlacedTurn& turn, const TurnMasks& masks);
+
+/// Indices of views whose mask is clearly smaller or larger than the hull of all views predicts, relative to the other
+/// views.
+struct DoubtfulMasks {
+    std::vector<std::size_t> small, large;
+};
+DoubtfulMasks find_doubtful_masks(std::span<const HullView> views);
 
 struct HullMatch {
     PlacedTurn turn;

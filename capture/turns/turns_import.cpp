@@ -3,6 +3,8 @@
 #include "capture/photos/intake/bounded_work.hpp"
 #include "capture/photos/intake/photo_rows.hpp"
 #include "capture/posed/posed_set.hpp"
+#include "capture/turns/hull_search.hpp"
+#include "capture/turns/joint_segmentation.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -23,6 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kFewestPhotos = 6;  // of a turn
+constexpr double kDoubtfulResidual_px = 2;
 
 // A turn between the stages.
 struct WorkingTurn {
@@ -30,6 +33,7 @@ struct WorkingTurn {
     PreparedTurn prepared;
     ForegroundCache foregrounds;
     FoundRig rig;
+    bool is_shifted = false;  // its points agree only if the photos were shifted and scaled individually
 };
 
 // Photos of a folder in natural order; its folders.
@@ -99,10 +103,8 @@ Status calibrate_alone(WorkingTurn& turn, const ImportOptions& options, Calibrat
         find_rig(request, turn.prepared.intake.folder, turn.prepared.turn, turn.foregrounds, progress);
     if (!found && choice == CalibrationChoice::kNominal) return found.error();
     if (!found) return {};
-    if (found->calibration.calibration && !found->calibration.calibration->places.empty()) {
-        return Error{printable(turn.name + ": its photos were shifted and scaled individually, so that turns cannot be "
-                                           "registered; give the original photos")};
-    }
+    turn.is_shifted = found->calibration.calibration && !found->calibration.calibration->places.empty();
+    if (turn.is_shifted) return {};
     turn.rig = std::move(*found);
     return {};
 }
@@ -117,10 +119,60 @@ Result<WorkingTurn> open_turn(const TurnSource& source, const ImportOptions& opt
     RS_ASSIGN_OR_RETURN(PhotoFolder folder, open_photo_files(source.photos, source.name, options.max_side_px));
     RS_ASSIGN_OR_RETURN(PreparedTurn prepared, prepare_turn(own, std::move(folder), cut, progress));
     const ForegroundCache foregrounds(cut, prepared.intake.folder.width, prepared.intake.folder.height);
-    WorkingTurn turn{source.name, std::move(prepared), foregrounds, {}};
-    RS_TRY(calibrate_alone(turn, options, CalibrationChoice::kNominal, progress));
-    RS_TRY(calibrate_alone(turn, options, CalibrationChoice::kTracks, progress));
-    return turn;
+    return WorkingTurn{source.name, std::move(prepared), foregrounds, {}, false};
+}
+
+Result<std::vector<WorkingTurn>> open_turns(std::span<const TurnSource> sources, const ImportOptions& options,
+                                            const fs::path& cut, Progress* progress) {
+    std::vector<WorkingTurn> turns;
+    for (const TurnSource& source : sources) {
+        RS_ASSIGN_OR_RETURN(WorkingTurn turn, open_turn(source, options, cut / std::to_string(turns.size()), progress));
+        for (const WorkingTurn& other : turns) {
+            if (has_same_photos(turn.prepared.turn, other.prepared.turn)) {
+                return Error{printable(turn.name + ": has the same photos as " + other.name + "; leave one out")};
+            }
+        }
+        turns.push_back(std::move(turn));
+    }
+    return turns;
+}
+
+bool is_segmented_by_background(const WorkingTurn& turn) {
+    return turn.prepared.chosen.kind == SegmenterKind::kBackground;
+}
+
+// Completes the masks of background models by the colours of all turns (joint_segmentation.hpp).
+Status correct_turns(std::vector<WorkingTurn>& turns, const ImportOptions& options, Progress* progress) {
+    if (!std::ranges::all_of(turns, is_segmented_by_background)) return {};
+    std::vector<TurnToCorrect> given;
+    for (const WorkingTurn& turn : turns) {
+        given.push_back({&turn.prepared.intake.folder, &turn.foregrounds, turn.prepared.turn.silhouette.visible()});
+    }
+    RS_ASSIGN_OR_RETURN(const std::vector<CorrectedTurn> corrected, correct_masks(given, progress));
+    for (std::size_t t = 0; t < turns.size(); ++t) {
+        if (!corrected[t].segmenter) continue;
+        PreparedTurn& prepared = turns[t].prepared;
+        RS_ASSIGN_OR_RETURN(
+            prepared.turn, segment_turn(prepared.intake.folder, *corrected[t].segmenter, turns[t].foregrounds, progress,
+                                        options.segmentation.parameters.foreground));
+        prepared.chosen.notes.push_back("the masks grew by " + format_fixed(100 * corrected[t].added, 0) +
+                                        " % by the colours of the object in all turns");
+    }
+    return {};
+}
+
+Status calibrate_turns(std::vector<WorkingTurn>& turns, const ImportOptions& options, Progress* progress) {
+    for (WorkingTurn& turn : turns) {
+        RS_TRY(calibrate_alone(turn, options, CalibrationChoice::kNominal, progress));
+        RS_TRY(calibrate_alone(turn, options, CalibrationChoice::kTracks, progress));
+    }
+    // If only some turns are, too few points may be the reason.
+    if (std::ranges::all_of(turns, &WorkingTurn::is_shifted)) {
+        return Error{printable(turns.front().name +
+                               ": its photos were shifted and scaled individually, as those of the other turns, so "
+                               "that turns cannot be registered; give the original photos")};
+    }
+    return {};
 }
 
 bool is_calibrated(const WorkingTurn& turn) {
@@ -242,12 +294,33 @@ TurnsImportReport report_on(const std::vector<WorkingTurn>& turns, const std::ve
         for (const auto* notes : {&turns[t].prepared.intake.notes, &turns[t].prepared.chosen.notes}) {
             for (const std::string& note : *notes) report.notes.push_back(turns[t].name + ": " + note);
         }
+        if (registered[t].rms_px > kDoubtfulResidual_px) {
+            report.notes.push_back(turns[t].name + ": fits the other turns to " +
+                                   format_fixed(registered[t].rms_px, 1) +
+                                   " px only, so that views between the turns are blurred; look at the images in the "
+                                   "set, and give photos with alpha if masks lack parts or hold shadows");
+        }
         if (!turns[t].rig.left_out.empty()) {
             report.notes.push_back(turns[t].name +
                                    ": repeated photos are left out: " + listed(turns[t].rig.left_out, 4));
         }
     }
     return report;
+}
+
+std::vector<std::string> mask_size_notes(const WrittenViews& written) {
+    const DoubtfulMasks doubtful = find_doubtful_masks(written.hulls);
+    std::vector<std::string> notes;
+    const auto add = [&](const std::vector<std::size_t>& views, const std::string& which) {
+        std::vector<std::string> names;
+        for (const std::size_t view : views) names.push_back(written.names[view]);
+        if (names.empty()) return;
+        notes.push_back("masks that are " + which + " than the other photos predict: " + listed(names, 4) +
+                        "; look at their images in the set, and give photos with alpha if they are wrong");
+    };
+    add(doubtful.small, "smaller");
+    add(doubtful.large, "larger");
+    return notes;
 }
 
 Status write_turns_rig(const fs::path& set, const WrittenViews& written, const BoundingCylinder& object,
@@ -279,22 +352,15 @@ Result<TurnsImportReport> import_turns_checked(std::span<const TurnSource> sourc
     std::error_code failure;
     fs::create_directories(set / "images", failure);
     if (failure) return Error{options.output.string() + ": cannot be written (" + failure.message() + ")"};
-    std::vector<WorkingTurn> turns;
-    for (const TurnSource& source : sources) {
-        const fs::path cut = set / "cut" / std::to_string(turns.size());
-        RS_ASSIGN_OR_RETURN(WorkingTurn turn, open_turn(source, options, cut, progress));
-        for (const WorkingTurn& other : turns) {
-            if (has_same_photos(turn.prepared.turn, other.prepared.turn)) {
-                return Error{printable(turn.name + ": has the same photos as " + other.name + "; leave one out")};
-            }
-        }
-        turns.push_back(std::move(turn));
-    }
+    RS_ASSIGN_OR_RETURN(std::vector<WorkingTurn> turns, open_turns(sources, options, set / "cut", progress));
+    RS_TRY(correct_turns(turns, options, progress));
+    RS_TRY(calibrate_turns(turns, options, progress));
     RS_TRY(calibrate_reference(turns, options, progress));
     RS_ASSIGN_OR_RETURN(const std::vector<RegisteredTurn> registered, register_all(turns, progress));
     RS_ASSIGN_OR_RETURN(const WrittenViews written, write_images(turns, registered, set, progress));
     RS_ASSIGN_OR_RETURN(const BoundingCylinder object, find_turned_object(written, options.output));
     TurnsImportReport report = report_on(turns, registered, object, written);
+    for (std::string& note : mask_size_notes(written)) report.notes.push_back(std::move(note));
     RS_TRY(write_turns_rig(set, written, object, report));
     fs::remove_all(set / "cut", failure);
     if (failure) return Error{options.output.string() + ": cannot be written (" + failure.message() + ")"};

@@ -4,6 +4,7 @@
 ///
 ///   find_turns()           folders or names of files -> photos of each turn
 ///   prepare_turn()         each turn segmented alone                   photos/import.hpp
+///   correct_masks()        masks completed by the colours of all       joint_segmentation.hpp
 ///   find_rig()             each turn calibrated alone, if possible     photos/rig/found_rig.hpp
 ///   register_turns()       all turns in one frame                      turn_registration.hpp
 ///   write_posed_image(), posed_rig()                                   posed/posed_set.hpp

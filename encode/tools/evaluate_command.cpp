@@ -126,14 +126,14 @@ Status write_page(const EvaluateArguments& arguments, const CaptureSet& set, con
                     {"reference planes", std::to_string(arguments.planes)}};
     report.rig = set.upright;
     RS_TRY(add_captured_images(set, report));
-    std::string which = arguments.hold_out;  // every-3rd
-    std::ranges::replace(which, '-', ' ');
+    std::string which = arguments.hold_out;  // every-3rd, turn=1
+    for (const char separator : {'-', '='}) std::ranges::replace(which, separator, ' ');
     add_scores(set, hold_out, which, scores, std::move(thumbnails), report);
     return write_report(file, report);
 }
 
 Status run_evaluate(const EvaluateArguments& arguments) {
-    RS_ASSIGN_OR_RETURN(const int every, parse_hold_out(arguments.hold_out));
+    RS_ASSIGN_OR_RETURN(const HoldOutRule rule, parse_hold_out(arguments.hold_out));
     EvaluationOptions options;
     options.planes = arguments.planes;
     RS_ASSIGN_OR_RETURN(std::vector<Method> methods, parse_methods(arguments.methods));
@@ -142,7 +142,7 @@ Status run_evaluate(const EvaluateArguments& arguments) {
     ProgressBar progress(arguments.quiet);
     RS_ASSIGN_OR_RETURN(const CaptureSet set, open_capture_set(arguments.set, &progress));
     for (const std::string& warning : set.warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
-    RS_ASSIGN_OR_RETURN(const HoldOut hold_out, choose_hold_out(set.upright, every, arguments.set));
+    RS_ASSIGN_OR_RETURN(const HoldOut hold_out, choose_hold_out(set.upright, rule, arguments.set));
     std::vector<std::filesystem::path> inputs{arguments.set, arguments.report};
     for (const RigView& view : set.captured.views) inputs.push_back(image_path(set.folder, view));
     RS_TRY(refuse_overwriting_inputs(arguments.output, inputs));
@@ -190,8 +190,10 @@ void add_evaluate_command(CLI::App& app, std::function<Status()>& run) {
                            "alpha is above 0. Views used to build an object are never scored");
     command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its images")->required();
     command
-        ->add_option("--hold-out", arguments->hold_out,
-                     "every-Nth: hold out the middle one of each N neighbouring views of a ring")
+        ->add_option(
+            "--hold-out", arguments->hold_out,
+            "every-Nth: hold out the middle one of each N neighbouring views of a ring; turn=N: all views of one "
+            "turn of a set of several, the first is 0")
         ->capture_default_str();
     command
         ->add_option("--methods", arguments->methods,

@@ -56,16 +56,33 @@ TEST(HoldOut, TooFewViewsAreAnErrorThatSaysSo) {
     EXPECT_TRUE(choose_hold_out(test::drawn_ring(3), 2, "set").ok());
 }
 
+TEST(HoldOut, AWholeTurnIsHeldOut) {
+    Rig rig = test::drawn_ring(5);
+    for (std::size_t i = 0; i < 5; ++i) rig.views[i].extras["turn"] = i < 2 ? 0 : 1;
+    const Result<HoldOutRule> rule = parse_hold_out("turn=1");
+    ASSERT_TRUE(rule.ok());
+    const Result<HoldOut> hold_out = choose_hold_out(rig, *rule, "set");
+    ASSERT_TRUE(hold_out.ok());
+    EXPECT_THAT(hold_out->held, ElementsAre(2, 3, 4));
+    EXPECT_THAT(hold_out->kept, ElementsAre(0, 1));
+    const Result<HoldOut> missing = hold_out_turn(rig, 2, "the-set");
+    ASSERT_FALSE(missing.ok());
+    EXPECT_THAT(missing.error().message, HasSubstr("the-set: no frame has \"turn\": 2"));
+    rig.views[0].extras["turn"] = 1;
+    EXPECT_FALSE(hold_out_turn(rig, 1, "set").ok());  // one view is left
+}
+
 TEST(HoldOut, OrdinalsAreRead) {
     for (const auto& [text, every] :
          {std::pair{"every-2nd", 2}, {"every-3rd", 3}, {"every-21st", 21}, {"every-8th", 8}}) {
-        const Result<int> parsed = parse_hold_out(text);
+        const Result<HoldOutRule> parsed = parse_hold_out(text);
         ASSERT_TRUE(parsed.ok()) << text;
-        EXPECT_EQ(*parsed, every);
+        EXPECT_EQ(parsed->kind, HoldOutKind::kEveryNth);
+        EXPECT_EQ(parsed->number, every);
     }
     for (const char* text : {"", "every-", "every-2", "every-1st", "every-0th", "every--2nd", "second", "every-2nd ",
-                             "every-99999999999th"}) {
-        const Result<int> parsed = parse_hold_out(text);
+                             "every-99999999999th", "turn=", "turn=-1", "turn=1st", "turn-1"}) {
+        const Result<HoldOutRule> parsed = parse_hold_out(text);
         ASSERT_FALSE(parsed.ok()) << text;
         EXPECT_THAT(parsed.error().message, HasSubstr("every-3rd"));
     }
