@@ -206,7 +206,7 @@ TEST_F(PosedImport, MasksOfTheFramesComeFirst) {
     content["frames"][2].erase("mask_path");
     ASSERT_TRUE(write_file(folder_ / "transforms.json", content.dump()).ok());
     fs::remove_all(folder_ / "set");
-    EXPECT_THAT(error(), HasSubstr("1 of 14 frames have no mask_path"));
+    EXPECT_THAT(error(), HasSubstr("1 of 14 frames have no mask_path, the first is 02.png"));
 }
 
 TEST_F(PosedImport, ReportsPhotosAndCamerasWithoutTheOther) {
@@ -264,9 +264,35 @@ TEST_F(PosedImport, FaultyInputIsRefusedWithTheRemedy) {
     write_transforms();
     EXPECT_THAT(error(), HasSubstr("05.png is inside the object's bounding cylinder"));
 
+    cameras_ = whole;  // one camera looks away
+    glm::dmat4& turned = cameras_[5].camera.world_from_camera;
+    turned[0] = -turned[0];
+    turned[2] = -turned[2];
+    write_transforms();
+    EXPECT_THAT(error(), HasSubstr("05.png looks away from the object"));
+
     cameras_ = {whole[0], whole[1]};
     write_transforms();
     EXPECT_THAT(error(), HasSubstr("2 photos have a camera and show the object; at least 3"));
+}
+
+TEST_F(PosedImport, PhotosWithTheCamerasOfOthersAreRefused) {
+    write_photos();
+    const std::vector<PosedCamera> whole = cameras_;
+    for (std::size_t i = 0; i < whole.size(); ++i) cameras_[i].photo = whole[(i + 5) % whole.size()].photo;
+    write_transforms();
+    EXPECT_THAT(error(), HasSubstr("check that each photo has its own camera"));
+    options_.force = true;
+    const auto report = import();
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_THAT(report->notes, testing::Contains(HasSubstr("is background by the other photos")));
+}
+
+TEST_F(PosedImport, OpacityOfMasksNeedsMasks) {
+    write_photos();
+    write_transforms();
+    options_.segmentation.masks_are_alpha = true;
+    EXPECT_THAT(error(), HasSubstr("--masks-alpha: needs a folder of masks"));
 }
 
 TEST_F(PosedImport, OpaquePhotosAreSegmentedByAllViews) {
@@ -298,6 +324,16 @@ TEST_F(PosedImport, OpaquePhotosAreSegmentedByAllViews) {
         }
         EXPECT_LT(wrong, 0.06 * object) << i;
     }
+}
+
+TEST_F(PosedImport, FramesFullOfBackgroundAreRefused) {
+    for (const PosedCamera& camera : cameras_) {  // a backdrop that no photo has
+        const Image<Rgba8> photo(160, 120, {40, 90, 160, 255});
+        ASSERT_TRUE(write_png(folder_ / "photos" / camera.photo, photo).ok());
+    }
+    write_transforms();
+    options_.segmentation.background = {BackgroundKind::kWhite, {}};
+    EXPECT_THAT(error(), HasSubstr("the object fills the frame in 14 of 14 photos"));
 }
 
 TEST_F(PosedImport, OpaquePhotosOfAMovingCameraNeedMasks) {
