@@ -12,6 +12,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 
 namespace rs::capture {
 namespace {
@@ -276,10 +277,12 @@ TEST_F(PosedImport, FaultyInputIsRefusedWithTheRemedy) {
     EXPECT_THAT(error(), HasSubstr("2 photos have a camera and show the object; at least 3"));
 }
 
-TEST_F(PosedImport, PhotosWithTheCamerasOfOthersAreRefused) {
+TEST_F(PosedImport, MasksThatDoNotAgreeAreRefused) {
     write_photos();
-    const std::vector<PosedCamera> whole = cameras_;
-    for (std::size_t i = 0; i < whole.size(); ++i) cameras_[i].photo = whole[(i + 5) % whole.size()].photo;
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+        Camera& camera = cameras_[i].camera;
+        camera.world_from_camera[3] += glm::dvec4((i % 2 == 0 ? 0.5 : -0.5) * camera.right(), 0);
+    }
     write_transforms();
     EXPECT_THAT(error(), HasSubstr("check that each photo has its own camera"));
     options_.force = true;
@@ -327,13 +330,22 @@ TEST_F(PosedImport, OpaquePhotosAreSegmentedByAllViews) {
 }
 
 TEST_F(PosedImport, FramesFullOfBackgroundAreRefused) {
-    for (const PosedCamera& camera : cameras_) {  // a backdrop that no photo has
-        const Image<Rgba8> photo(160, 120, {40, 90, 160, 255});
+    std::mt19937 generator(7);
+    for (const PosedCamera& camera : cameras_) {  // blocks of random colours around the object
+        Image<Rgba8> photo = test::posed_photo(camera);
+        for (int top = 0; top < 120; top += 8) {
+            for (int left = 0; left < 160; left += 8) {
+                const auto tone = [&] { return static_cast<std::uint8_t>(generator() % 256); };
+                const Rgba8 block{tone(), tone(), tone(), 255};
+                for (int y = top; y < top + 8; ++y) {
+                    for (int x = left; x < left + 8; ++x) photo(x, y) = over(photo(x, y), block);
+                }
+            }
+        }
         ASSERT_TRUE(write_png(folder_ / "photos" / camera.photo, photo).ok());
     }
     write_transforms();
-    options_.segmentation.background = {BackgroundKind::kWhite, {}};
-    EXPECT_THAT(error(), HasSubstr("the object fills the frame in 14 of 14 photos"));
+    EXPECT_THAT(error(), HasSubstr("the object fills the frame in"));
 }
 
 TEST_F(PosedImport, OpaquePhotosOfAMovingCameraNeedMasks) {
