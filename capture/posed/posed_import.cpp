@@ -74,13 +74,17 @@ Result<std::vector<fs::path>> mask_files_of(const PhotoGroup& group, const Photo
     const SegmenterRequest& request = options.segmentation;
     const bool wants_masks = request.kind == SegmenterKind::kAuto || request.kind == SegmenterKind::kMasks;
     std::vector<fs::path> files;
+    std::string without_mask;  // first photo
     if (!request.masks.empty() || !wants_masks || request.background.kind) return files;
     std::error_code ignored;
     const fs::path beside =
         fs::is_directory(options.cameras, ignored) ? options.cameras : options.cameras.parent_path();
     for (const std::size_t i : group.photos) {
         const std::string& mask = matches.photos[i].camera.mask_path;
-        if (mask.empty()) continue;
+        if (mask.empty()) {
+            if (without_mask.empty()) without_mask = matches.photos[i].name;
+            continue;
+        }
         const auto file = resolve_reference(mask, beside);
         if (!file || !fs::is_regular_file(*file, ignored)) {
             return Error{printable(options.cameras.string() + ": mask_path '" + mask +
@@ -89,8 +93,10 @@ Result<std::vector<fs::path>> mask_files_of(const PhotoGroup& group, const Photo
         files.push_back(*file);
     }
     if (!files.empty() && files.size() != group.photos.size()) {
-        return Error{options.cameras.string() + ": " + std::to_string(group.photos.size() - files.size()) + " of " +
-                     std::to_string(group.photos.size()) + " frames have no mask_path; add it, or give --masks"};
+        return Error{printable(options.cameras.string() + ": " + std::to_string(group.photos.size() - files.size()) +
+                               " of " + std::to_string(group.photos.size()) +
+                               " frames have no mask_path, the first is " + without_mask +
+                               "; add it, or give --masks")};
     }
     return files;
 }
@@ -119,7 +125,7 @@ Error unknown_background(const PosedImportOptions& options) {
 bool has_photos_alone(const SegmenterRequest& request) {
     const bool is_open = request.kind == SegmenterKind::kAuto || request.kind == SegmenterKind::kBackground;
     return is_open && request.masks.empty() && request.network.empty() && !request.background.kind &&
-           request.shadow == ShadowHandling::kRemove;
+           !request.masks_are_alpha && request.shadow == ShadowHandling::kRemove;
 }
 
 // The segmenter is null if no background model fits a moving camera, and all views must find the object.
@@ -304,13 +310,53 @@ void note_beyond_hull(const std::vector<double>& shares, const std::vector<std::
                                      "; give --masks, or take the photos out"));
 }
 
+// Share of the pixels at the frame's border that are object.
+double border_share(const cv::Mat1b& mask) {
+    const int last_row = mask.rows - 1, last_column = mask.cols - 1;
+    const int object = cv::countNonZero(mask.row(0)) + cv::countNonZero(mask.row(last_row)) +
+                       cv::countNonZero(mask.col(0)) + cv::countNonZero(mask.col(last_column));
+    return static_cast<double>(object) / (2.0 * (mask.cols + mask.rows));
+}
+
+// Refuses masks that a background model found if most fill the frame.
+Status check_separation(const std::vector<HullView>& views, const PosedImportOptions& options,
+                        const PosedImportReport& report) {
+    constexpr double kFilled = 0.7;
+    const auto count = std::ranges::count_if(views, [](const HullView& v) { return border_share(v.mask) > kFilled; });
+    const bool is_given = report.segmenter == SegmenterKind::kAlpha || report.segmenter == SegmenterKind::kMasks;
+    if (options.force || is_given || 2 * count <= std::ssize(views)) return {};
+    return Error{options.photos.string() + ": the object fills the frame in " + std::to_string(count) + " of " +
+                 std::to_string(views.size()) +
+                 " photos, so that the background was not found; give --masks, --segmentation-model FILE.onnx or "
+                 "photos with alpha, or --force"};
+}
+
+// Refuses masks of which most do not fit the hull of the others: photos with the cameras of other photos.
+Status check_agreement(const std::vector<double>& beyond_hull, const std::string& where) {
+    constexpr double kTooMuch = 0.3;
+    const auto count = std::ranges::count_if(beyond_hull, [](double share) { return share > kTooMuch; });
+    if (2 * count <= std::ssize(beyond_hull)) return {};
+    return Error{where + "the masks of " + std::to_string(count) + " of " + std::to_string(beyond_hull.size()) +
+                 " photos do not agree with those of the others; check that each photo has its own camera, and the "
+                 "masks (--masks), or give --force"};
+}
+
 // Finds up, origin and radius. `views` are those of the photos `kept`.
 Status find_object(std::vector<HullView>& views, bool has_uncertain_axes, const PosedImportOptions& options,
                    const std::vector<std::string>& names, PosedImportReport& report) {
+    RS_TRY(check_separation(views, options, report));
     RS_ASSIGN_OR_RETURN(const glm::dvec3 target, find_target(views, has_uncertain_axes, options, report));
-    std::vector<Camera> cameras;
-    for (const HullView& view : views) cameras.push_back(view.camera);
     const std::string where = options.cameras.string() + ": ";
+    std::vector<Camera> cameras;
+    std::vector<std::string> away;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        cameras.push_back(views[i].camera);
+        if (!(cameras[i].project(target).z > 0)) away.push_back(names[i]);
+    }
+    if (!away.empty()) {
+        return Error{printable(where + listed(away, 3) + (away.size() > 1 ? " look" : " looks") +
+                               " away from the object; correct the pose, or take the photo out")};
+    }
     const Result<UpAxis> up = find_up(options.up, cameras, target);
     if (!up) return Error{where + up.error().message};
     report.up = *up;
@@ -324,6 +370,7 @@ Status find_object(std::vector<HullView>& views, bool has_uncertain_axes, const 
             where + listed(inside, 3) + (inside.size() > 1 ? " are" : " is") +
             " inside the object's bounding cylinder; check poses and masks (--masks), or take the photos out")};
     }
+    if (!options.force) RS_TRY(check_agreement(object->beyond_hull, where));
     note_beyond_hull(object->beyond_hull, names, report);
     report.origin = object->centre;
     report.radius = object->radius;

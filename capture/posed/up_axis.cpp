@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLevel = 0.1736;           // sine of 10 degrees
 constexpr double kWeightWidth = 0.0872;     // sine of 5 degrees
-constexpr double kSideways = 0.5;           // sine of the roll from which a photo counts as stored on its side
+constexpr double kSideways = 0.5;           // sine of the elevation of a photo's up, from which it tells up from down
 constexpr double kMinSecondScatter = 0.05;  // below it, the axes are nearly parallel and do not span a plane
 constexpr double kCostOnSide = 0.3;         // most photos are not on their side
 constexpr double kMinLevelShare = 0.7;      // chance fits reach a half
@@ -54,7 +54,7 @@ std::vector<glm::dvec3> horizontal_axes(std::span<const Camera> cameras, const g
     std::vector<glm::dvec3> axes;
     for (const Camera& camera : cameras) {
         const double right = std::abs(glm::dot(camera.right(), up)), along = std::abs(glm::dot(camera.up(), up));
-        axes.push_back(right > kSideways && along < right ? camera.up() : camera.right());
+        axes.push_back(right > kLevel && along < right ? camera.up() : camera.right());
     }
     return axes;
 }

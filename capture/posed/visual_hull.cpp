@@ -101,9 +101,11 @@ HullBox bounds_of(const std::vector<glm::dvec3>& kept, const glm::dvec3& step) {
 BoundingCylinder cylinder_of(const std::vector<glm::dvec3>& kept, const glm::dvec3& step) {
     std::vector<cv::Point2f> plan;
     double low = kept.front().y, high = low;
-    const glm::dvec3 near = kept.front();  // float coordinates are relative to it
+    // Float coordinates are relative to a voxel, in voxels: minEnclosingCircle() adds 1e-4 to the radius.
+    const glm::dvec3 near = kept.front();
+    const double unit = std::max(step.x, step.z);
     for (const glm::dvec3& p : kept) {
-        plan.emplace_back(static_cast<float>(p.x - near.x), static_cast<float>(p.z - near.z));
+        plan.emplace_back(static_cast<float>((p.x - near.x) / unit), static_cast<float>((p.z - near.z) / unit));
         low = std::min(low, p.y - 0.5 * step.y);
         high = std::max(high, p.y + 0.5 * step.y);
     }
@@ -113,9 +115,9 @@ BoundingCylinder cylinder_of(const std::vector<glm::dvec3>& kept, const glm::dve
     float radius = 0;
     cv::minEnclosingCircle(outline, middle, radius);
     BoundingCylinder cylinder;
-    cylinder.centre = {near.x + static_cast<double>(middle.x), 0.5 * (low + high),
-                       near.z + static_cast<double>(middle.y)};
-    cylinder.radius = static_cast<double>(radius) + 0.5 * std::hypot(step.x, step.z);
+    cylinder.centre = {near.x + unit * static_cast<double>(middle.x), 0.5 * (low + high),
+                       near.z + unit * static_cast<double>(middle.y)};
+    cylinder.radius = unit * static_cast<double>(radius) + 0.5 * std::hypot(step.x, step.z);
     cylinder.height = high - low;
     return cylinder;
 }

@@ -272,17 +272,20 @@ Result<bool> has_posed_cameras(const ImportCommandLine& given, ImportOptions& op
     const bool has_transforms =
         std::filesystem::exists(rig_file(given.known), ignored) && std::filesystem::is_directory(given.known, ignored);
     if (given.posed.is_requested() || (!has_transforms && find_colmap_model(given.known))) return true;
-    RS_TRY(check_known_orientation(given));
     Result<KnownFile> turn = read_known_turn(given);
     if (turn) {
+        RS_TRY(check_known_orientation(given));
         options.known = std::move(turn).value();
         return false;
     }
     const Result<PosedModel> posed = read_camera_file(given.known);
-    const bool is_folder = std::filesystem::is_directory(given.known, ignored);
-    if (!posed && is_folder && !has_transforms) return posed.error();
-    if (!turn_options(given).empty() || !posed) return turn.error();
-    return true;
+    const std::vector<std::string> unused = turn_options(given);
+    if (posed && unused.empty()) return true;  // EXIF orientation by the size of each camera
+    RS_TRY(check_known_orientation(given));
+    if (!posed) return is_opencv_intrinsics(given.known) ? turn.error() : posed.error();
+    return Error{
+        printable(listed(unused, unused.size()) +
+                  ": only for photos of one turn; leave it out, or correct the cameras: " + turn.error().message)};
 }
 
 Status import_posed(const ImportCommandLine& given, const ImportOptions& options) {

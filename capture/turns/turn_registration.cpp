@@ -224,10 +224,11 @@ private:
     }
 
     [[nodiscard]] static Error no_placement(const std::string& name, double overlap) {
-        return Error{name + ": its silhouettes do not fit the other turns at any azimuth and height (" +
-                     format_fixed(100 * overlap, 0) +
-                     " % overlap); check that it is of the same object, standing as in the other turns; only an object "
-                     "with texture may be laid down otherwise"};
+        return Error{
+            name + ": its silhouettes do not fit the other turns at any azimuth and height (" +
+            format_fixed(100 * overlap, 0) +
+            " % overlap); check that it is of the same object, standing as in the other turns, in equal steps; "
+            "only an object with texture may be laid down otherwise"};
     }
 
     // Tracks of the points that turns share, by the pairs that agree with the placements.

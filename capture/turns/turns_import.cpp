@@ -13,9 +13,12 @@
 #include <opencv2/core/utility.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -71,6 +74,34 @@ std::vector<TurnSource> rows_of(const fs::path& folder, const std::vector<fs::pa
     return turns;
 }
 
+// Refuses photos that are too few for a turn beside the folders of turns, such as one of the setup.
+Status check_stray_photos(const fs::path& folder, const Listing& listing) {
+    if (listing.photos.size() >= kFewestPhotos) return {};
+    std::vector<std::string> turns;
+    for (const fs::path& inner : listing.folders) {
+        RS_ASSIGN_OR_RETURN(const Listing of_turn, list_folder(inner));
+        if (of_turn.photos.size() >= kFewestPhotos) turns.push_back(inner.string());
+    }
+    if (turns.size() < 2) return {};
+    return Error{printable(listing.photos.front().string() + ": is beside the folders of turns " + listed(turns, 3) +
+                           "; move the photos of " + folder.string() + " elsewhere, or give the turns' folders")};
+}
+
+// Refuses folders that by their name hold no photos of a turn: masks would become views.
+Status check_turn_names(std::span<const TurnSource> turns) {
+    constexpr std::array<std::string_view, 12> kNoTurns = {"mask",  "masks",  "alpha",      "alphas",
+                                                           "matte", "mattes", "depth",      "depths",
+                                                           "thumb", "thumbs", "thumbnails", "previews"};
+    for (const TurnSource& turn : turns) {
+        std::string name = fs::path(turn.name).filename().string();
+        std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        if (std::ranges::find(kNoTurns, name) == kNoTurns.end()) continue;
+        return Error{printable(turn.name + ": is no folder of photos, by its name; move or rename it, or give the "
+                                           "folders of the turns")};
+    }
+    return {};
+}
+
 Status check_sources(std::span<const TurnSource> sources) {
     for (std::size_t a = 0; a < sources.size(); ++a) {
         if (sources[a].photos.size() < kFewestPhotos) {
@@ -95,6 +126,15 @@ bool has_same_photos(const SegmentedTurn& a, const SegmentedTurn& b) {
     });
 }
 
+// True if the photos were cropped and scaled by more than the noise of the estimate.
+bool is_recentred(const std::vector<ImagePlacement>& places, int width) {
+    constexpr double kNoise_widths = 0.01, kNoise_scale = 0.02;
+    return std::ranges::any_of(places, [&](const ImagePlacement& place) {
+        return glm::length(place.shift_px - places.front().shift_px) > kNoise_widths * width ||
+               std::abs(place.scale / places.front().scale - 1) > kNoise_scale;
+    });
+}
+
 // Calibrates a turn alone; without a result, its registration finds the camera.
 Status calibrate_alone(WorkingTurn& turn, const ImportOptions& options, CalibrationChoice choice, Progress* progress) {
     RigRequest request = static_cast<const RigRequest&>(options);
@@ -103,8 +143,10 @@ Status calibrate_alone(WorkingTurn& turn, const ImportOptions& options, Calibrat
         find_rig(request, turn.prepared.intake.folder, turn.prepared.turn, turn.foregrounds, progress);
     if (!found && choice == CalibrationChoice::kNominal) return found.error();
     if (!found) return {};
-    turn.is_shifted = found->calibration.calibration && !found->calibration.calibration->places.empty();
-    if (turn.is_shifted) return {};
+    if (found->calibration.calibration && !found->calibration.calibration->places.empty()) {
+        turn.is_shifted = is_recentred(found->calibration.calibration->places, turn.prepared.intake.folder.width);
+        return {};
+    }
     turn.rig = std::move(*found);
     return {};
 }
@@ -408,6 +450,7 @@ Result<std::vector<TurnSource>> find_turns(std::span<const fs::path> folders) {
     const fs::path& folder = folders.front();
     RS_ASSIGN_OR_RETURN(Listing listing, list_folder(folder));
     if (!listing.photos.empty()) {
+        RS_TRY(check_stray_photos(folder, listing));
         turns = rows_of(folder, listing.photos);
         if (turns.empty()) turns.push_back({folder.string(), std::move(listing.photos)});
         return turns;
@@ -416,6 +459,7 @@ Result<std::vector<TurnSource>> find_turns(std::span<const fs::path> folders) {
         RS_ASSIGN_OR_RETURN(Listing of_turn, list_folder(inner));
         if (!of_turn.photos.empty()) turns.push_back({inner.string(), std::move(of_turn.photos)});
     }
+    if (turns.size() > 1) RS_TRY(check_turn_names(turns));
     if (turns.empty()) turns.push_back({folder.string(), {}});
     return turns;
 }

@@ -35,8 +35,8 @@ struct ImageSize {
     int height = 0;
 };
 
-// Called for the first frame if neither the file nor that frame states the image size.
-using FindImageSize = std::function<Result<ImageSize>(const RigView& first)>;
+// Called for the frames whose image size neither the file nor the frame states.
+using FindImageSize = std::function<Result<ImageSize>(const RigView& view)>;
 
 // Intrinsics stated by one JSON object, the file or a frame.
 struct Intrinsics {
@@ -126,7 +126,8 @@ glm::dmat4 matrix_of(const JsonValue& rows) {
     return matrix;
 }
 
-RigView parse_frame(JsonObject frame, const FindImageSize& find_size, bool first, Intrinsics& file) {
+// `assumed`: size of the frames without an image; 0 for the first frame, which sets it and needs its image.
+RigView parse_frame(JsonObject frame, const FindImageSize& find_size, const Intrinsics& file, ImageSize& assumed) {
     RigView view;
     view.file_path = path_of(frame.take("file_path"));
     if (view.file_path.empty()) throw frame.wrong("file_path is empty; a frame needs the name of its image");
@@ -135,14 +136,18 @@ RigView parse_frame(JsonObject frame, const FindImageSize& find_size, bool first
     view.camera.world_from_camera = matrix_of(matrix);
     const double error = rotation_error(view.camera);
     if (!(error <= kRigidTolerance)) {
-        throw matrix.wrong("is not a rotation and a translation (it scales, shears or mirrors); remove the scale");
+        throw matrix.wrong(
+            "is not a rotation and a translation (it scales, shears or mirrors); remove the scale or the mirroring");
     }
-    const Intrinsics own = take_intrinsics(frame);
-    if (first && find_size && !((own.w || file.w) && (own.h || file.h))) {
+    Intrinsics own = take_intrinsics(frame);
+    if (find_size && !((own.w || file.w) && (own.h || file.h))) {
         const auto size = find_size(view);
-        if (!size) throw frame.wrong("has no w and h, and they cannot be read from its image: " + size.error().message);
-        file.w = size->width;
-        file.h = size->height;
+        if (!size && assumed.width == 0) {
+            throw frame.wrong("has no w and h, and they cannot be read from its image: " + size.error().message);
+        }
+        if (assumed.width == 0) assumed = *size;
+        own.w = size ? size->width : assumed.width;
+        own.h = size ? size->height : assumed.height;
     }
     apply_intrinsics(own, file, frame, view.camera);
     view.extras = frame.take_rest();
@@ -197,14 +202,15 @@ std::string dump_json(const ordered_json& value) {
 Result<Rig> parse_rig(const std::string& text, const std::string& where, const FindImageSize& find_size) {
     return read_json(text, where, [&](JsonObject& top) {
         if (!top.has("frames")) throw top.wrong("frames is missing; is this a transforms.json?");
-        Intrinsics file = take_intrinsics(top);
+        const Intrinsics file = take_intrinsics(top);
         Rig rig;
         top.read("object_radius", rig.object_radius, 0, kMaxLength);
         rig.foot_height = number_of(top, "foot_height", -kMaxLength, kMaxLength);
         const JsonValue frames = top.take("frames");
         rig.views.resize(frames.list_size(1, kMaxViews));
+        ImageSize assumed;
         for (std::size_t i = 0; i < rig.views.size(); ++i) {
-            rig.views[i] = parse_frame(JsonObject(frames.item(i)), find_size, i == 0, file);
+            rig.views[i] = parse_frame(JsonObject(frames.item(i)), find_size, file, assumed);
         }
         rig.extras = top.take_rest();
         return rig;

@@ -5,6 +5,7 @@
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/posed/posed_scene.hpp"
+#include "tests/support/camera_jpeg.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -109,6 +110,38 @@ TEST_F(PosedTool, OptionsOfATurnAreRefused) {
     const test::ToolRun run = import({"--known", in("sparse/0"), "--up", "sideways"});
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_THAT(run.err, HasSubstr("--up"));
+}
+
+// The same cameras as a transforms.json, with the photos' size as displayed.
+TEST_F(PosedTool, TransformsOfPosedPhotosAreNoTurn) {
+    const std::vector<capture::PosedCamera> cameras = test::posed_cameras(10, 120, 90);
+    nlohmann::json content = {{"w", 120}, {"h", 90}, {"fl_x", cameras[0].camera.fl_x}};
+    fs::create_directories(folder_ / "turned");
+    for (const capture::PosedCamera& posed : cameras) {
+        const glm::dmat4& m = posed.camera.world_from_camera;
+        nlohmann::json rows;
+        for (int row = 0; row < 4; ++row) rows.push_back({m[0][row], m[1][row], m[2][row], m[3][row]});
+        content["frames"].push_back({{"file_path", posed.photo}, {"transform_matrix", rows}});
+        const fs::path jpeg = folder_ / "turned" / fs::path(posed.photo).replace_extension(".jpg");
+        const Image<Rgba8> photo = test::posed_photo(posed);
+        Image<Rgba8> stored(90, 120);
+        for (int y = 0; y < 120; ++y) {
+            for (int x = 0; x < 90; ++x) stored(x, y) = over(photo(119 - y, x), {255, 255, 255, 255});
+        }
+        ASSERT_TRUE(write_jpeg(jpeg, stored, 95).ok());
+        test::add_exif(jpeg, 6);
+    }
+    ASSERT_TRUE(write_file(folder_ / "transforms.json", content.dump()).ok());
+    expect_refused({"--known", in("transforms.json"), "--fov", "30"}, "--fov: only for photos of one turn");
+    const test::ToolRun run =
+        capture_tool({"import", in("turned"), "-o", in("set"), "-q", "--known", in("transforms.json")});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("10 posed views of 120x90")) << "EXIF orientation is applied";
+    fs::remove_all(folder_ / "set");
+    content["frames"].push_back(content["frames"][0]);
+    content["frames"].back()["transform_matrix"][0][3] = 3;
+    ASSERT_TRUE(write_file(folder_ / "transforms.json", content.dump()).ok());
+    expect_refused({"--known", in("transforms.json")}, "frame 10 has the image of an earlier one");
 }
 
 TEST_F(PosedTool, ColmapRefusesWhatItCannotUse) {

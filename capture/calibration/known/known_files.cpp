@@ -253,11 +253,16 @@ Result<KnownFile> read_known_rig(const std::filesystem::path& path, ImagePixels 
     return file;
 }
 
+bool is_opencv_intrinsics(const std::filesystem::path& path) {
+    const std::string ending = lower_case_extension(path);
+    return ending == ".yml" || ending == ".yaml" || ending == ".xml";
+}
+
 Result<KnownFile> read_known_file(const std::filesystem::path& path, ImagePixels images) {
     const std::string ending = lower_case_extension(path);
     std::error_code failure;
     if (ending == ".json" || std::filesystem::is_directory(path, failure)) return read_known_rig(path, images);
-    if (ending == ".yml" || ending == ".yaml" || ending == ".xml") return read_opencv_intrinsics(path, images);
+    if (is_opencv_intrinsics(path)) return read_opencv_intrinsics(path, images);
     if (ending == ".txt") return read_middlebury_parameters(path);
     return Error{path.string() +
                  ": unknown file type; give a transforms.json, a *_par.txt (Middlebury) or a *.yml, *.yaml or "

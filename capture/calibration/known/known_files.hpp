@@ -70,6 +70,9 @@ Result<std::vector<MiddleburyView>> middlebury_views_from(const std::string& tex
 /// Error: K is not that of a camera without skew.
 Status check_middlebury_lens(const MiddleburyView& view, const std::string& where);
 
+/// True if the name ends in .yml, .yaml or .xml.
+bool is_opencv_intrinsics(const std::filesystem::path& path);
+
 /// Selects the reader by the name: a folder or *.json is a rig, *.yml, *.yaml and *.xml are OpenCV's, *.txt is
 /// Middlebury's.
 Result<KnownFile> read_known_file(const std::filesystem::path& path, ImagePixels images = {});

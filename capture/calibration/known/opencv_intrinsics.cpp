@@ -155,7 +155,8 @@ Result<KnownFile> opencv_intrinsics_from(const std::string& text, const std::str
         if (!file.isOpened()) return Error{where + ": is not in OpenCV's YAML, XML or JSON"};
         return known_from(file, where, images);
     } catch (const cv::Exception& problem) {
-        return Error{where + ": is not in OpenCV's YAML, XML or JSON: " + one_line(problem.err)};
+        return Error{where + ": is not in OpenCV's YAML, XML or JSON (" + one_line(problem.err) +
+                     "); cameras of other programs are read from a transforms.json or a COLMAP model"};
     } catch (const std::exception& problem) {
         return Error{where + ": cannot be read: " + one_line(problem.what())};
     }

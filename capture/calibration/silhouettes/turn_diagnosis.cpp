@@ -76,6 +76,17 @@ std::optional<std::size_t> first_view_after_change(std::span<const double> share
     return moment;
 }
 
+// The view before which the object turns back by several steps, if there are photos of a turn on both sides of it.
+std::optional<std::size_t> first_view_of_second_turn(std::span<const double> angles_rad) {
+    constexpr std::size_t kFewestOfTurn = 5;
+    constexpr double kBack_steps = 3;
+    const double usual = median_step(angles_rad);
+    for (std::size_t i = kFewestOfTurn; i + kFewestOfTurn <= angles_rad.size(); ++i) {
+        if ((angles_rad[i] - angles_rad[i - 1]) * usual < -kBack_steps * usual * usual) return i;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<int> repeated_views(std::span<const double> angles_rad) {
@@ -108,7 +119,8 @@ Status check_plausibility(const Bundle& bundle, const ModelDeviations& deviation
                            " % of the observations agree with the best one";
         if (!apart.empty()) text += ", and not those of " + list_of(apart, names);
         if (const auto moment = first_view_after_change(inlier_shares(bundle, candidates))) {
-            text += "; was the camera or the tripod moved at about " + names[*moment] + "? Take the turn again";
+            text += "; was the camera or the tripod moved at about " + names[*moment] +
+                    "? Take the turn again; two turns need a folder each";
         } else {
             text += "; are they of one camera, one zoom and one object that did not move on the turntable?";
         }
@@ -129,10 +141,15 @@ Status check_plausibility(const Bundle& bundle, const ModelDeviations& deviation
                      std::to_string(against) +
                      " steps against it); are the images in the order they were taken? Names are sorted naturally"};
     }
+    if (const auto second = first_view_of_second_turn(model.angles_rad)) {
+        return Error{"the angles start again at " + names[*second] +
+                     "; are these the photos of two turns? Give a folder for each"};
+    }
     const double turn_deg = std::abs(degrees(model.angles_rad.back() - model.angles_rad.front()));
     if (turn_deg < 15 || turn_deg > 400) {
-        return Error{"the images cover " + format_fixed(turn_deg, 1) +
-                     " degrees of turn; 15 to 400 are needed (one turn, without repeats)"};
+        return Error{
+            "the images cover " + format_fixed(turn_deg, 1) +
+            " degrees of turn; 15 to 400 are needed (one turn, without repeats; two turns need a folder each)"};
     }
     if (!(deviations.f_px < kMostUncertainLens * model.lens.f_px)) {
         return Error{"the images leave the focal length open; give it with --fov, or put a board under the object"};

@@ -371,7 +371,8 @@ Result<BackgroundModel> estimate_background(const Survey& survey, const Backgrou
     }
     const bool alpha = alpha_use == AlphaUse::kPrefer && has_alpha(survey, parameters.alpha);
     if (request.kind == BackgroundKind::kAlpha && !alpha) {
-        return Error{where + ": the photos have no transparent pixels; leave --backdrop alpha away"};
+        return Error{where +
+                     ": the photos have no transparent pixels; leave out --backdrop alpha or --segmenter alpha"};
     }
     if (request.kind == BackgroundKind::kAlpha || (!request.kind && alpha)) return BackgroundModel{};
     return BackgroundEstimator(survey, parameters).estimate(request, where);

@@ -1,5 +1,6 @@
 #include "capture/posed/cameras/posed_camera.hpp"
 
+#include "rayspace/base/printable.hpp"
 #include "rayspace/image_io/photo_size.hpp"
 
 #include <algorithm>
@@ -9,6 +10,8 @@ namespace rs::capture {
 
 Status check_lens(const PosedCamera& camera, const std::string& place) {
     constexpr double kMinFocal_px = 1e-3, kMaxFocal_px = 1e7;
+    constexpr double kMinFocal_sides = 0.05;  // a fisheye with a circle of 180 degrees has more than 0.15
+    constexpr int kMinSideForCorner_px = 8;
     constexpr double kMaxPrincipal_px = 1e6;
     constexpr double kMaxCoefficient = 1e6;
     const Camera& lens = camera.camera;
@@ -21,6 +24,15 @@ Status check_lens(const PosedCamera& camera, const std::string& place) {
         if (!(focal >= kMinFocal_px && focal <= kMaxFocal_px)) {
             return Error{place + ": its focal length is out of range; check that it is in pixels"};
         }
+    }
+    const int side = std::max(lens.width, lens.height);
+    if (std::max(lens.fl_x, lens.fl_y) < kMinFocal_sides * side) {
+        return Error{place + ": its focal length is below " + format_fixed(100 * kMinFocal_sides, 0) +
+                     " % of the image's side; give it in pixels"};
+    }
+    const auto is_share = [](double x) { return x >= 0 && x <= 1; };
+    if (side >= kMinSideForCorner_px && is_share(lens.cx) && is_share(lens.cy)) {
+        return Error{place + ": its principal point is the image's corner; give cx and cy in pixels"};
     }
     if (!(std::abs(lens.cx) <= kMaxPrincipal_px && std::abs(lens.cy) <= kMaxPrincipal_px)) {
         return Error{place + ": its principal point is out of range; check that it is in pixels"};

@@ -12,6 +12,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 
 namespace rs::capture {
 namespace {
@@ -206,7 +207,7 @@ TEST_F(PosedImport, MasksOfTheFramesComeFirst) {
     content["frames"][2].erase("mask_path");
     ASSERT_TRUE(write_file(folder_ / "transforms.json", content.dump()).ok());
     fs::remove_all(folder_ / "set");
-    EXPECT_THAT(error(), HasSubstr("1 of 14 frames have no mask_path"));
+    EXPECT_THAT(error(), HasSubstr("1 of 14 frames have no mask_path, the first is 02.png"));
 }
 
 TEST_F(PosedImport, ReportsPhotosAndCamerasWithoutTheOther) {
@@ -264,9 +265,37 @@ TEST_F(PosedImport, FaultyInputIsRefusedWithTheRemedy) {
     write_transforms();
     EXPECT_THAT(error(), HasSubstr("05.png is inside the object's bounding cylinder"));
 
+    cameras_ = whole;  // one camera looks away
+    glm::dmat4& turned = cameras_[5].camera.world_from_camera;
+    turned[0] = -turned[0];
+    turned[2] = -turned[2];
+    write_transforms();
+    EXPECT_THAT(error(), HasSubstr("05.png looks away from the object"));
+
     cameras_ = {whole[0], whole[1]};
     write_transforms();
     EXPECT_THAT(error(), HasSubstr("2 photos have a camera and show the object; at least 3"));
+}
+
+TEST_F(PosedImport, MasksThatDoNotAgreeAreRefused) {
+    write_photos();
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+        Camera& camera = cameras_[i].camera;
+        camera.world_from_camera[3] += glm::dvec4((i % 2 == 0 ? 0.5 : -0.5) * camera.right(), 0);
+    }
+    write_transforms();
+    EXPECT_THAT(error(), HasSubstr("check that each photo has its own camera"));
+    options_.force = true;
+    const auto report = import();
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_THAT(report->notes, testing::Contains(HasSubstr("is background by the other photos")));
+}
+
+TEST_F(PosedImport, OpacityOfMasksNeedsMasks) {
+    write_photos();
+    write_transforms();
+    options_.segmentation.masks_are_alpha = true;
+    EXPECT_THAT(error(), HasSubstr("--masks-alpha: needs a folder of masks"));
 }
 
 TEST_F(PosedImport, OpaquePhotosAreSegmentedByAllViews) {
@@ -298,6 +327,25 @@ TEST_F(PosedImport, OpaquePhotosAreSegmentedByAllViews) {
         }
         EXPECT_LT(wrong, 0.06 * object) << i;
     }
+}
+
+TEST_F(PosedImport, FramesFullOfBackgroundAreRefused) {
+    std::mt19937 generator(7);
+    for (const PosedCamera& camera : cameras_) {  // blocks of random colours around the object
+        Image<Rgba8> photo = test::posed_photo(camera);
+        for (int top = 0; top < 120; top += 8) {
+            for (int left = 0; left < 160; left += 8) {
+                const auto tone = [&] { return static_cast<std::uint8_t>(generator() % 256); };
+                const Rgba8 block{tone(), tone(), tone(), 255};
+                for (int y = top; y < top + 8; ++y) {
+                    for (int x = left; x < left + 8; ++x) photo(x, y) = over(photo(x, y), block);
+                }
+            }
+        }
+        ASSERT_TRUE(write_png(folder_ / "photos" / camera.photo, photo).ok());
+    }
+    write_transforms();
+    EXPECT_THAT(error(), HasSubstr("the object fills the frame in"));
 }
 
 TEST_F(PosedImport, OpaquePhotosOfAMovingCameraNeedMasks) {

@@ -50,6 +50,17 @@ TEST(UpAxis, PhotosStoredOnTheirSide) {
     EXPECT_LT(off_deg(find_up({}, cameras, world.shift), {0, 0, 1}), 1e-6) << "all; most cameras are above";
 }
 
+TEST(UpAxis, SteepPhotosStoredOnTheirSide) {
+    std::vector<Camera> cameras;
+    for (int i = 0; i < 24; ++i) {
+        const double turn = 2.4 * i, rise = radians(i % 3 == 0 ? 10 : 68);
+        const glm::dvec3 eye(std::cos(rise) * std::sin(turn), std::sin(rise), std::cos(rise) * std::cos(turn));
+        cameras.push_back(look_at_camera(4.0 * eye, {0, 0, 0}, 1, 64, 48));
+        roll(cameras.back(), radians(90));
+    }
+    EXPECT_LT(off_deg(find_up({}, cameras, {0, 0, 0}), {0, 1, 0}), 1e-6);
+}
+
 TEST(UpAxis, OneLevelRingOnItsSide) {
     std::vector<Camera> cameras;
     for (int i = 0; i < 12; ++i) {

@@ -39,6 +39,17 @@ TEST(VisualHull, BoundsTheObject) {
     for (const double share : object->beyond_hull) EXPECT_LT(share, 0.02);
 }
 
+TEST(VisualHull, UnitOfLengthIsOfNoInfluence) {
+    constexpr double kUnit = 1e-5;
+    std::vector<HullView> views = hull_views(24);
+    const auto large = carve_bounding_cylinder(views, *common_target(views), {0, 1, 0});
+    for (HullView& view : views) view.camera.world_from_camera[3] *= glm::dvec4(glm::dvec3(kUnit), 1);
+    const auto small = carve_bounding_cylinder(views, *common_target(views), {0, 1, 0});
+    ASSERT_TRUE(large.ok() && small.ok());
+    EXPECT_NEAR(small->radius / kUnit, large->radius, 1e-3);
+    EXPECT_NEAR(small->height / kUnit, large->height, 1e-3);
+}
+
 TEST(VisualHull, OneMaskWithBackgroundIsOutvotedAndNamed) {
     std::vector<HullView> views = hull_views(24);
     cv::rectangle(views[3].mask, cv::Rect(0, 0, 40, 120), 255, cv::FILLED);

@@ -65,5 +65,15 @@ TEST_F(TurnsImport, NamesATurnWithOnePhotoAndOneGivenTwice) {
     EXPECT_THAT(import_error({folder_ / "low", folder_ / "empty"}), HasSubstr("empty: holds no photos"));
 }
 
+TEST_F(TurnsImport, NamesWhatIsNoTurnBesideTheTurns) {
+    write_photos(folder_ / "all" / "low", "", 6);
+    write_photos(folder_ / "all" / "high", "", 6);
+    write_photos(folder_ / "all" / "Masks", "", 6);
+    EXPECT_THAT(import_error({folder_ / "all"}), HasSubstr("Masks: is no folder of photos, by its name"));
+    fs::remove_all(folder_ / "all" / "Masks");
+    write_photos(folder_ / "all", "setup", 1);
+    EXPECT_THAT(import_error({folder_ / "all"}), HasSubstr("setup0.png: is beside the folders of turns"));
+}
+
 }  // namespace
 }  // namespace rs::capture

@@ -251,6 +251,21 @@ TEST(Rig, TakesTheSizeFromTheFirstImage) {
     EXPECT_EQ(rig->views[0].file_path, "./train/r_0");
 }
 
+TEST(Rig, TakesTheSizesFromTheImages) {
+    const TemporaryFolder folder;
+    const auto frame = [](const std::string& name) {
+        return R"({"file_path":")" + name + R"(","transform_matrix":)" + std::string(kIdentity) + "}";
+    };
+    std::ofstream(folder / kRigFileName) << R"({"fl_x":30,"frames":[)" << frame("a") << "," << frame("b") << ","
+                                         << frame("missing") << "]}";
+    ASSERT_TRUE(write_png(folder / "a.png", Image<Rgba8>(20, 10)).ok());
+    ASSERT_TRUE(write_png(folder / "b.png", Image<Rgba8>(10, 20)).ok());
+    const auto rig = read_rig(folder.path());
+    ASSERT_TRUE(rig.ok()) << rig.error().message;
+    EXPECT_EQ(rig->views[1].camera.height, 20) << "portrait and landscape";
+    EXPECT_EQ(rig->views[2].camera.height, 10) << "as the first";
+}
+
 TEST(Rig, ImagePathAddsTheExtensionWhereNeeded) {
     const TemporaryFolder folder;
     const auto path_of = [&](const std::string& name) {

@@ -179,6 +179,14 @@ TEST(TurnDiagnosis, ImagesOutOfOrderAreAnError) {
     EXPECT_THAT(judged.accepted.error().message, HasSubstr("in the order they were taken"));
 }
 
+TEST(TurnDiagnosis, PhotosOfTwoTurnsAreAnError) {
+    TurntableModel two = test::turn_model(36, radians(10));
+    for (std::size_t i = 18; i < 36; ++i) two.angles_rad[i] = two.angles_rad[i - 18] + radians(60);
+    const Judged judged = judge(two, two);
+    ASSERT_FALSE(judged.accepted.ok());
+    EXPECT_THAT(judged.accepted.error().message, HasSubstr("start again at " + test::photograph_names(36)[18]));
+}
+
 TEST(TurnDiagnosis, TooShortATurnIsAnError) {
     const TurntableModel part = test::turn_model(10, radians(1));
     const Judged judged = judge(part, part);

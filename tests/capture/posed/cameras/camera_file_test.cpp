@@ -96,6 +96,14 @@ TEST_F(CameraFile, FaultyFramesAreRefused) {
     write("transforms.json", content);
     EXPECT_THAT(error_of("transforms.json"), HasSubstr("remove the scale"));
     EXPECT_THAT(error_of("cameras.yml"), HasSubstr("unknown file type"));
+    content = set();
+    content["cx"] = content["cy"] = 0.5;
+    write("transforms.json", content);
+    EXPECT_THAT(error_of("transforms.json"), HasSubstr("give cx and cy in pixels"));
+    content = set();
+    content["fl_x"] = 0.9;
+    write("transforms.json", content);
+    EXPECT_THAT(error_of("transforms.json"), HasSubstr("frame 0: its focal length is below 5 %"));
 }
 
 TEST_F(CameraFile, FindsColmapModelsAndMiddleburyFiles) {
