@@ -57,12 +57,13 @@ ViewSynthesizer::ViewSynthesizer(std::span<const PosedPhoto> photos, const Signe
     if (progress != nullptr) progress->finish();
 }
 
-std::vector<const ViewSynthesizer::Source*> ViewSynthesizer::candidates_near(const Camera& camera,
-                                                                             const glm::dvec3& p) const {
+std::vector<const ViewSynthesizer::Source*> ViewSynthesizer::nearest_sources(
+    const Camera& camera, const glm::dvec3& p, const std::function<bool(const Source&)>& is_suitable) const {
     const glm::dvec3 wanted = glm::normalize(camera.centre() - p);
     std::vector<std::pair<double, const Source*>> all;  // by decreasing cosine of the angle to the view's ray
     all.reserve(sources_.size());
     for (const Source& source : sources_) {
+        if (!is_suitable(source)) continue;
         all.emplace_back(-glm::dot(wanted, glm::normalize(source.camera.centre() - p)), &source);
     }
     const std::size_t count = std::min(kCandidates, all.size());
@@ -90,8 +91,8 @@ float ViewSynthesizer::visibility(const Source& source, const glm::dvec3& seen) 
                               smooth_step(1, kFade_px, margin_px));
 }
 
-RgbaF ViewSynthesizer::blend(std::span<const Source* const> candidates, const Camera& camera,
-                             const glm::dvec3& p) const {
+std::optional<RgbaF> ViewSynthesizer::blend(std::span<const Source* const> candidates, const Camera& camera,
+                                            const glm::dvec3& p) const {
     struct Direction {
         double cosine = 0;  // of the angle to the view's ray
         glm::dvec3 towards{0};
@@ -120,7 +121,7 @@ RgbaF ViewSynthesizer::blend(std::span<const Source* const> candidates, const Ca
                           visible * (0.02 + smooth_step(0.0, 0.35, facing)),
                           sample_linear(n->source->image, seen.x, seen.y)};
     }
-    if (count == 0) return {};
+    if (count == 0) return std::nullopt;
     const std::size_t blended = std::min(count, blended_most);
     // The first photo that is not blended sets the angle at which weights reach 0.
     const double farthest = count > blended ? found[blended].angle : found[count - 1].angle * 1.5 + kLeastAngle_rad;
@@ -136,17 +137,25 @@ RgbaF ViewSynthesizer::blend(std::span<const Source* const> candidates, const Ca
         sum.a += w * c.colour.a;
         weights += w;
     }
-    if (sum.a <= 0) return {};
+    if (sum.a <= 0) return RgbaF{};
     // The share of a pixel that the surface covers is counted by the rays. Photos that have a contour there are half
     // transparent, too, and must not count it again; a point that they show to be beside the object is removed.
     const float alpha = std::min(2 * sum.a / weights, 1.0F);
     const float scale = alpha / sum.a;
-    return {sum.r * scale, sum.g * scale, sum.b * scale, alpha};
+    return RgbaF{sum.r * scale, sum.g * scale, sum.b * scale, alpha};
 }
 
 RgbaF ViewSynthesizer::colour_at(const Camera& camera, const glm::dvec3& p, Tile& tile) const {
-    if (tile.candidates.empty()) tile.candidates = candidates_near(camera, p);
-    return blend(tile.candidates, camera, p);
+    if (tile.candidates.empty()) {
+        tile.candidates = nearest_sources(camera, p, [](const Source&) { return true; });
+    }
+    if (const auto colour = blend(tile.candidates, camera, p)) return *colour;
+    // From straight above, the nearest photos of a turn may all be on one side, from which the point is hidden.
+    const glm::dvec3 normal = surface_.normal(p);
+    const auto shows = [&](const Source& source) {
+        return glm::dot(normal, source.camera.centre() - p) > 0 && visibility(source, source.camera.project(p)) > 0;
+    };
+    return blend(nearest_sources(camera, p, shows), camera, p).value_or(RgbaF{});
 }
 
 ViewSynthesizer::Pixel ViewSynthesizer::render_edge(const Camera& camera, int x, int y, Tile& tile) const {

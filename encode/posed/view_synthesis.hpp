@@ -8,6 +8,8 @@
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,10 +50,13 @@ private:
     // Casts several rays.
     [[nodiscard]] Pixel render_edge(const Camera& camera, int x, int y, Tile& tile) const;
     [[nodiscard]] RgbaF colour_at(const Camera& camera, const glm::dvec3& p, Tile& tile) const;
-    [[nodiscard]] std::vector<const Source*> candidates_near(const Camera& camera, const glm::dvec3& p) const;
+    // Those with the least angle to the view's ray.
+    [[nodiscard]] std::vector<const Source*> nearest_sources(
+        const Camera& camera, const glm::dvec3& p, const std::function<bool(const Source&)>& is_suitable) const;
     [[nodiscard]] float visibility(const Source& source, const glm::dvec3& seen) const;
-    [[nodiscard]] RgbaF blend(std::span<const Source* const> candidates, const Camera& camera,
-                              const glm::dvec3& p) const;
+    // nullopt if no candidate shows the point.
+    [[nodiscard]] std::optional<RgbaF> blend(std::span<const Source* const> candidates, const Camera& camera,
+                                             const glm::dvec3& p) const;
 
     const SignedVolume& surface_;
     SynthesisOptions options_;
