@@ -18,7 +18,7 @@ struct HullTolerance {
 };
 
 struct HullOptions {
-    int longest_voxels = 256;  // along the longest side of the object's box
+    int longest_voxels = 320;  // along the longest side of the object's box
 };
 
 struct CarvedHull {
