@@ -4,8 +4,8 @@
 //
 // A ring covers the directions of its views and of the gaps that have lines. Its distance from a viewpoint is the angle
 // from the viewpoint's direction to the nearest one that it covers. From another distance than the ring's cameras the
-// object's edge is seen along rays beside the viewpoint's direction; an arc must cover these, too. Arcs about other axes
-// than the object's are used beyond the outermost rings about that axis only.
+// object's edge is seen along rays beside the viewpoint's direction; an arc must cover these, too. Arcs about other
+// axes than the object's are used beyond the outermost rings about that axis only.
 
 #include "rayspace/object/ray_space_object.hpp"
 
