@@ -87,7 +87,9 @@ struct KindRun {
     std::uint8_t outside[kRun];
 };
 
-HWY_INLINE void weigh_kind(const std::uint8_t* costs, int rows, int neighbours, int count, KindRun& kind) {
+// `first` is the index of the first neighbour's cost; there may be no neighbours and no costs.
+HWY_INLINE void weigh_kind(const std::uint8_t* costs, std::ptrdiff_t first, int rows, int neighbours, int count,
+                           KindRun& kind) {
     std::uint8_t best[kRun];
     std::uint8_t worst[kRun];
     for (int n = 0; n < kRun; ++n) {
@@ -97,7 +99,7 @@ HWY_INLINE void weigh_kind(const std::uint8_t* costs, int rows, int neighbours, 
         kind.outside[n] = 0;
     }
     for (int neighbour = 0; neighbour < neighbours; ++neighbour) {
-        const std::uint8_t* const of_one = costs + static_cast<std::ptrdiff_t>(neighbour) * rows;
+        const std::uint8_t* const of_one = costs + first + static_cast<std::ptrdiff_t>(neighbour) * rows;
         for (int n = 0; n < count; ++n) {
             const std::uint8_t cost = of_one[n];
             const auto known = static_cast<std::uint8_t>(cost != kUnknownMatch ? 1 : 0);
@@ -118,8 +120,8 @@ void merge_all(const std::uint8_t* costs, int rows, int beside, int across, std:
         const int count = std::min(kRun, rows - begin);
         KindRun a;
         KindRun b;
-        weigh_kind(costs + begin, rows, beside, count, a);
-        weigh_kind(costs + static_cast<std::ptrdiff_t>(beside) * rows + begin, rows, across, count, b);
+        weigh_kind(costs, begin, rows, beside, count, a);
+        weigh_kind(costs, static_cast<std::ptrdiff_t>(beside) * rows + begin, rows, across, count, b);
         for (int n = 0; n < count; ++n) {
             const int both = (a.cost[n] + b.cost[n]) / 2;
             const int of_a = a.known[n] != 0 ? a.cost[n] : kMaxCost / 2;
