@@ -247,7 +247,7 @@ private:
             const auto iy = static_cast<int>(py);
             const float fx = px - static_cast<float>(ix);
             const float fy = py - static_cast<float>(iy);
-            if (neighbour.inside(ix + static_cast<int>(fx + 0.5F), iy + static_cast<int>(fy + 0.5F)) == 0) continue;
+            if (neighbour.inside(ix + (fx >= 0.5F ? 1 : 0), iy + (fy >= 0.5F ? 1 : 0)) == 0) continue;
             const float* const upper = &neighbour.luma(ix, iy);
             const float* const lower = upper + to.width;
             const float above = upper[0] + fx * (upper[1] - upper[0]);
